@@ -1,0 +1,3 @@
+//! The `ogee` command.
+
+fn main() {}

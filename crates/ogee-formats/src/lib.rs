@@ -1,0 +1,1 @@
+//! Files of ogee: control meshes in, parts and meshes out.

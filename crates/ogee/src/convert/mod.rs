@@ -1,0 +1,5 @@
+//! The whole journey from a cage to a part.
+
+mod part;
+
+pub use part::{Body, Method, Part, Report};

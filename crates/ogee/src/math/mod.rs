@@ -1,0 +1,11 @@
+//! Small mathematics that everything above stands on.
+
+pub(crate) mod par;
+
+mod grid;
+mod interpolate;
+mod vec3;
+
+pub use grid::Grid;
+pub use interpolate::Interpolate;
+pub use vec3::Vec3;

@@ -1,0 +1,229 @@
+//! `ControlMesh`: the polygons a designer moves, as plain data. Nothing is promised about it until a
+//! [`crate::Level`] is built from it.
+
+use crate::math::Vec3;
+
+/// A Catmull-Clark control mesh (cage) with its tags.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ControlMesh {
+    /// Vertex positions, in file order.
+    pub points: Vec<Vec3>,
+    /// Vertex indices of each face, counter-clockwise seen from outside.
+    pub faces: FaceList,
+    /// Sharp and semi-sharp edges. If an edge is named twice the last one counts.
+    pub creases: Vec<Crease>,
+    /// Sharp and semi-sharp vertices. If a vertex is named twice the last one counts.
+    pub corners: Vec<Corner>,
+    /// Faces that take part in refinement but are no part of the surface.
+    pub holes: Vec<u32>,
+    /// Choices of the subdivision scheme.
+    pub scheme: Scheme,
+    /// Texture coordinates, if there are any.
+    pub uv: Option<FaceVarying>,
+}
+
+/// Faces of any number of corners, one after the other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FaceList {
+    starts: Vec<u32>,
+    vertices: Vec<u32>,
+}
+
+/// Face-varying values: a second mesh over the same faces, whose vertices are the values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FaceVarying {
+    /// The values.
+    pub values: Vec<[f64; 2]>,
+    /// For each corner of each face, in the order of the face list, the index of its value.
+    pub indices: Vec<u32>,
+    /// Which values stay where they are.
+    pub rule: FaceVaryingRule,
+}
+
+/// Which face-varying values are interpolated linearly, that is, never move (`evaluation` method page).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FaceVaryingRule {
+    /// None by rule.
+    None,
+    /// Values held by one face.
+    CornersOnly,
+    /// Also every value of a vertex that has three or more, and both of two where one's faces are not
+    /// consecutive. The default of USD and of this library.
+    #[default]
+    CornersPlus1,
+    /// Also the value at the inner end of a seam, and both of two if one is held by one face.
+    CornersPlus2,
+    /// Every value on a seam or boundary; their edge points are midpoints.
+    Boundaries,
+    /// Everything is bilinear.
+    All,
+}
+
+/// What a file says about the subdivision scheme.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Scheme {
+    /// Rule at the boundary.
+    pub boundary: Boundary,
+    /// How semi-sharp creases fade.
+    pub creasing: Creasing,
+}
+
+/// Rule at the boundary of the mesh.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Boundary {
+    /// Boundary edges are infinitely sharp, and so are boundary vertices with a single face.
+    #[default]
+    EdgeAndCorner,
+    /// Boundary edges are infinitely sharp.
+    EdgeOnly,
+    /// Faces that touch a boundary vertex are no part of the surface.
+    None,
+}
+
+/// How semi-sharp creases fade from level to level.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Creasing {
+    /// Sharpness falls by one per level.
+    #[default]
+    Uniform,
+    /// Chaikin's averaging along the crease, less one.
+    Chaikin,
+}
+
+/// How long an edge or vertex is kept sharp.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub enum Sharpness {
+    /// For so many levels; fractions blend. Between 0 and 10.
+    Finite(f64),
+    /// For ever.
+    Infinite,
+}
+
+impl Sharpness {
+    /// The value a file gives: 10 and more are infinite, 0 and less are smooth.
+    ///
+    /// ```
+    /// # use ogee::Sharpness;
+    /// assert_eq!(Sharpness::from_value(10.0), Sharpness::Infinite);
+    /// assert_eq!(Sharpness::from_value(-1.0), Sharpness::Finite(0.0));
+    /// ```
+    pub fn from_value(value: f64) -> Sharpness {
+        if value >= 10.0 { Sharpness::Infinite } else { Sharpness::Finite(value.max(0.0)) }
+    }
+
+    /// As a number; `f64::INFINITY` where it never fades.
+    pub fn value(self) -> f64 {
+        match self {
+            Sharpness::Finite(value) => value,
+            Sharpness::Infinite => f64::INFINITY,
+        }
+    }
+}
+
+/// An edge that is kept sharp.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crease {
+    /// The ends of the edge, in either order.
+    pub vertices: [u32; 2],
+    /// For how long.
+    pub sharpness: Sharpness,
+}
+
+/// A vertex that is kept sharp.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Corner {
+    /// The vertex.
+    pub vertex: u32,
+    /// For how long.
+    pub sharpness: Sharpness,
+}
+
+impl Default for FaceList {
+    fn default() -> FaceList {
+        FaceList { starts: vec![0], vertices: Vec::new() }
+    }
+}
+
+impl FaceList {
+    /// No faces.
+    pub fn new() -> FaceList {
+        FaceList::default()
+    }
+
+    /// Room for `faces` faces with `corners` corners in all.
+    pub fn with_capacity(faces: usize, corners: usize) -> FaceList {
+        let mut starts = Vec::with_capacity(faces + 1);
+        starts.push(0);
+        FaceList { starts, vertices: Vec::with_capacity(corners) }
+    }
+
+    /// Adds a face.
+    ///
+    /// # Panics
+    /// If the list would have `2^32` corners or more.
+    pub fn push(&mut self, corners: &[u32]) {
+        self.vertices.extend_from_slice(corners);
+        self.starts.push(u32::try_from(self.vertices.len()).expect("fewer than 2^32 corners of faces"));
+    }
+
+    /// Number of faces.
+    pub fn len(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// True if there is no face.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The corners of face `f`, in order.
+    ///
+    /// # Panics
+    /// If there is no such face.
+    pub fn face(&self, f: usize) -> &[u32] {
+        &self.vertices[self.starts[f] as usize..self.starts[f + 1] as usize]
+    }
+
+    /// All faces in order.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = &[u32]> + '_ {
+        (0..self.len()).map(|f| self.face(f))
+    }
+
+    /// The corners of all faces, one face after the other.
+    pub fn corners(&self) -> &[u32] {
+        &self.vertices
+    }
+
+    /// Where each face begins in [`FaceList::corners`]; one entry more than there are faces.
+    pub fn starts(&self) -> &[u32] {
+        &self.starts
+    }
+}
+
+impl<const N: usize> FromIterator<[u32; N]> for FaceList {
+    fn from_iter<I: IntoIterator<Item = [u32; N]>>(faces: I) -> FaceList {
+        let mut list = FaceList::new();
+        for face in faces {
+            list.push(&face);
+        }
+        list
+    }
+}
+
+impl ControlMesh {
+    /// A mesh of points and faces, with no tags.
+    pub fn new(points: Vec<Vec3>, faces: FaceList) -> ControlMesh {
+        ControlMesh { points, faces, ..ControlMesh::default() }
+    }
+
+    /// The bounding box of all points, `[least, greatest]`; `None` without points.
+    pub fn bounding_box(&self) -> Option<[Vec3; 2]> {
+        let first = *self.points.first()?;
+        Some(self.points.iter().fold([first, first], |[low, high], &p| [low.min(p), high.max(p)]))
+    }
+
+    /// The diagonal of the bounding box: the size that tolerances are relative to.
+    pub fn size(&self) -> f64 {
+        self.bounding_box().map_or(0.0, |[low, high]| low.distance(high))
+    }
+}

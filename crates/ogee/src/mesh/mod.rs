@@ -1,0 +1,15 @@
+//! Control meshes and their connectivity.
+
+mod check;
+mod control_mesh;
+mod ids;
+pub mod shapes;
+pub(crate) mod topology;
+
+pub use check::{Defect, Note, Place, TopologyError, check, notes};
+pub use control_mesh::{
+    Boundary, ControlMesh, Corner, Crease, Creasing, FaceList, FaceVarying, FaceVaryingRule, Scheme,
+    Sharpness,
+};
+pub use ids::{EdgeId, FaceId, HalfedgeId, VertexId};
+pub use topology::{Topology, Valence};

@@ -1,0 +1,109 @@
+//! `Shell`: NURBS faces that share edges and vertices.
+
+use super::{NurbsCurve, NurbsSurface};
+use crate::math::{Grid, Vec3};
+use crate::mesh::FaceId;
+
+/// Faces sewn along shared edges; connected.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Shell {
+    /// Positions of the vertices.
+    pub vertices: Vec<Vec3>,
+    /// Edges, each stored once however many faces use it.
+    pub edges: Vec<ShellEdge>,
+    /// Faces.
+    pub faces: Vec<ShellFace>,
+}
+
+/// An edge of a shell.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShellEdge {
+    /// Vertex where the curve begins.
+    pub start: u32,
+    /// Vertex where the curve ends.
+    pub end: u32,
+    /// The curve; its first and last coefficients are the positions of the vertices, bit for bit.
+    pub curve: NurbsCurve,
+    /// True if the faces on both sides share tangent planes along it by construction. False on creases, along
+    /// edges that end in a cone point, and on the boundary.
+    pub smooth: bool,
+}
+
+/// One face of a shell: an untrimmed surface whose natural boundary is its loop of edges.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShellFace {
+    /// The surface; `du x dv` points out of the solid.
+    pub surface: NurbsSurface,
+    /// The edges around it, counter-clockwise, beginning at `(0, 0)` along `v = 0`. More than four where a
+    /// neighbour's corner (a T) stands on a side.
+    pub boundary: Vec<EdgeUse>,
+    /// The pieces of the cage that it covers: `quads[(i, j)]`, `i` along `u`. One cell unless it is packed.
+    pub quads: Grid<FaceAddress>,
+}
+
+/// A use of an edge by a face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EdgeUse {
+    /// Index into [`Shell::edges`].
+    pub edge: u32,
+    /// True if the loop runs along the edge's own direction.
+    pub forward: bool,
+    /// The side of the surface's parameter rectangle that the edge lies on.
+    pub side: Side,
+    /// The surface's parameter along that side where the loop enters and leaves the edge: increasing on the
+    /// sides `V0` and `U1`, decreasing on `V1` and `U0`.
+    pub range: [f64; 2],
+}
+
+/// A side of the parameter rectangle, in the order of the loop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// `v` at its least; the loop runs along growing `u`.
+    V0,
+    /// `u` at its greatest; the loop runs along growing `v`.
+    U1,
+    /// `v` at its greatest; the loop runs along falling `u`.
+    V1,
+    /// `u` at its least; the loop runs along falling `v`.
+    U0,
+}
+
+/// Which piece of the cage: a quad face has one (no corner); a polygon, and every face of a cage that was
+/// refined once first, has one per corner.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct FaceAddress {
+    /// The face of the cage.
+    pub face: FaceId,
+    /// The corner of that face, `None` if the piece is the whole face.
+    pub corner: Option<u32>,
+}
+
+impl std::fmt::Display for FaceAddress {
+    /// `f12` or `f12.3`: the name of a face in STEP.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.corner {
+            None => write!(f, "f{}", self.face),
+            Some(corner) => write!(f, "f{}.{corner}", self.face),
+        }
+    }
+}
+
+impl ShellFace {
+    /// The piece of the cage at the surface's own `(0, 0)`.
+    pub fn address(&self) -> FaceAddress {
+        self.quads[(0, 0)]
+    }
+}
+
+impl Shell {
+    /// True if every edge is used exactly twice, in opposite directions.
+    pub fn is_closed(&self) -> bool {
+        let mut uses = vec![[0u32; 2]; self.edges.len()];
+        for face in &self.faces {
+            for used in &face.boundary {
+                uses[used.edge as usize][usize::from(used.forward)] += 1;
+            }
+        }
+        !self.faces.is_empty() && uses.iter().all(|&count| count == [1, 1])
+    }
+}
