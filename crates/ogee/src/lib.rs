@@ -1,9 +1,14 @@
 //! Catmull-Clark control meshes to exact, smooth, measurable surfaces.
 
+mod catmull_clark;
 pub mod convert;
+mod crease;
 pub mod math;
 pub mod mesh;
 pub mod nurbs;
+mod refine;
+mod rules;
+mod stencil;
 
 pub use math::{Grid, Interpolate, Vec3};
 pub use mesh::{
@@ -11,3 +16,6 @@ pub use mesh::{
     FaceVaryingRule, HalfedgeId, Note, Place, Scheme, Sharpness, Topology, TopologyError, Valence, VertexId,
     shapes,
 };
+pub use refine::{FineMesh, Refinement, Step, TooDeep};
+pub use rules::{EdgeRule, Level, Sector, VertexMask, VertexRule};
+pub use stencil::{Row, StencilTable};

@@ -1,0 +1,11 @@
+//! Refinement: every halfedge becomes four.
+
+mod fine;
+mod points;
+pub(crate) mod split;
+mod step;
+mod uniform;
+
+pub use fine::{FineMesh, TooDeep};
+pub use step::Step;
+pub use uniform::Refinement;

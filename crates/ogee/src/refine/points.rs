@@ -1,0 +1,112 @@
+//! The fast path: points of the next level straight from the points of this one.
+//!
+//! The four common masks (smooth face, edge and vertex, and the boundary) are stated here a second time, without
+//! rows; everything a tag touches asks the rule table. The test `fast_path_equals_the_table` holds the two together.
+
+use crate::math::{Interpolate, par};
+use crate::mesh::{HalfedgeId, Topology, VertexId};
+use crate::rules::{Level, VertexMask, masks};
+use crate::stencil::Row;
+
+impl Level {
+    /// One step of refinement of points or other data, with no table kept: the next level and its points.
+    ///
+    /// # Panics
+    /// If there are fewer points than vertices, or the next level would be too large.
+    pub fn refine_points<T: Interpolate>(&self, points: &[T]) -> (Level, Vec<T>) {
+        (self.split(), self.child_points(points))
+    }
+
+    /// The points of the next level: vertex points, face points, edge points.
+    pub(crate) fn child_points<T: Interpolate>(&self, points: &[T]) -> Vec<T> {
+        let topology = self.topology();
+        let (vertices, faces) = (topology.vertex_count(), topology.face_count());
+        let mut out = vec![T::zero(); vertices + faces + topology.edge_count()];
+        let (vertex_points, rest) = out.split_at_mut(vertices);
+        let (face_points, edge_points) = rest.split_at_mut(faces);
+        par::fill(face_points, |f| face_point(topology, f, points));
+        let face_points = &*face_points;
+        let edges = topology.edge_halfedges();
+        let (edge_rules, vertex_rules) = self.tagged_rules();
+        par::fill(edge_points, |e| {
+            if !edge_rules.is_empty() && edge_rules.get(e as u32).is_some() {
+                return by_table(points, |row| masks::edge_mask(self, edges[e], row));
+            }
+            edge_point(topology, edges[e], points, face_points)
+        });
+        par::fill(vertex_points, |v| {
+            let v = VertexId(v as u32);
+            if !vertex_rules.is_empty() && vertex_rules.get(v.0).is_some() {
+                return by_table(points, |row| masks::vertex_mask(self, v, row));
+            }
+            vertex_point(self, v, points, face_points)
+        });
+        out
+    }
+}
+
+fn by_table<T: Interpolate>(points: &[T], write: impl Fn(&mut Row)) -> T {
+    let mut row = Row::new();
+    write(&mut row);
+    let mut value = T::zero();
+    for &(source, weight) in row.weights() {
+        value.add_scaled(weight, &points[source as usize]);
+    }
+    value
+}
+
+#[inline]
+fn face_point<T: Interpolate>(topology: &Topology, f: usize, points: &[T]) -> T {
+    let f = crate::mesh::FaceId(f as u32);
+    let share = 1.0 / f64::from(topology.face_size(f));
+    let mut value = T::zero();
+    for h in topology.halfedges(f) {
+        value.add_scaled(share, &points[topology.origin(h).index()]);
+    }
+    value
+}
+
+#[inline]
+fn edge_point<T: Interpolate>(topology: &Topology, h: HalfedgeId, points: &[T], face_points: &[T]) -> T {
+    let ends = [&points[topology.origin(h).index()], &points[topology.target(h).index()]];
+    let mut value = T::zero();
+    let Some(twin) = topology.twin(h) else {
+        value.add_scaled(1.0 / 2.0, ends[0]);
+        value.add_scaled(1.0 / 2.0, ends[1]);
+        return value;
+    };
+    value.add_scaled(1.0 / 4.0, ends[0]);
+    value.add_scaled(1.0 / 4.0, ends[1]);
+    value.add_scaled(1.0 / 4.0, &face_points[topology.face(h).index()]);
+    value.add_scaled(1.0 / 4.0, &face_points[topology.face(twin).index()]);
+    value
+}
+
+#[inline]
+fn vertex_point<T: Interpolate>(level: &Level, v: VertexId, points: &[T], face_points: &[T]) -> T {
+    let topology = level.topology();
+    let own = &points[v.index()];
+    if !topology.is_boundary(v) && topology.outgoing(v).is_some() {
+        let mut around = T::zero();
+        let mut n = 0.0;
+        for h in topology.ring(v) {
+            around.add_scaled(1.0, &points[topology.target(h).index()]);
+            around.add_scaled(1.0, &face_points[topology.face(h).index()]);
+            n += 1.0;
+        }
+        let mut value = T::zero();
+        value.add_scaled((n - 2.0) / n, own);
+        value.add_scaled(1.0 / (n * n), &around);
+        return value;
+    }
+    match level.untagged_mask(v) {
+        VertexMask::Crease { ends } => {
+            let mut value = T::zero();
+            value.add_scaled(6.0 / 8.0, own);
+            value.add_scaled(1.0 / 8.0, &points[ends[0].index()]);
+            value.add_scaled(1.0 / 8.0, &points[ends[1].index()]);
+            value
+        }
+        VertexMask::Smooth | VertexMask::Corner => own.clone(),
+    }
+}

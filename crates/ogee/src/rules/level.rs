@@ -1,0 +1,188 @@
+//! `Level`: a topology with its rules; one rung of refinement.
+
+use super::classify::{classify_edges, classify_vertices, hidden_faces};
+use super::{EdgeRule, Sparse, VertexMask, VertexRule};
+use crate::mesh::{
+    Boundary, ControlMesh, Creasing, FaceId, HalfedgeId, Scheme, Topology, TopologyError, VertexId, check,
+};
+
+/// An edge with sharpness above zero, by one of its halfedges.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SharpEdge {
+    pub(crate) halfedge: HalfedgeId,
+    pub(crate) sharpness: f64,
+}
+
+/// Connectivity and the rule of each element. A level stands alone: any level can be the base of a hierarchy.
+/// Points are never inside it: one level serves every pose of an animated cage.
+///
+/// Functions that take an id panic if it is out of range.
+#[derive(Clone, Debug)]
+pub struct Level {
+    pub(super) topology: Topology,
+    pub(super) scheme: Scheme,
+    /// Edges with sharpness above zero that are no boundary edges (those are always infinitely sharp).
+    pub(super) sharp_edges: Sparse<SharpEdge>,
+    /// Vertices with sharpness above zero.
+    pub(super) vertex_sharpness: Sparse<f64>,
+    /// Rules other than smooth, or crease on the boundary.
+    edge_rules: Sparse<EdgeRule>,
+    /// Rules other than smooth inside, and those of the scheme on the boundary.
+    vertex_rules: Sparse<VertexRule>,
+    /// Faces that are no part of the surface, in order.
+    hidden: Vec<FaceId>,
+}
+
+impl Level {
+    /// The first level of a cage: the only place where a bad mesh is refused.
+    ///
+    /// # Errors
+    /// If the mesh has any defect; then all of them are named.
+    pub fn new(mesh: &ControlMesh) -> Result<Level, TopologyError> {
+        let topology = Topology::new(mesh)?;
+        let tagged = !(mesh.creases.is_empty() && mesh.corners.is_empty() && mesh.holes.is_empty());
+        if tagged || mesh.uv.is_some() {
+            let defects = check(mesh);
+            if !defects.is_empty() {
+                return Err(TopologyError { defects });
+            }
+        }
+        let edges = mesh.creases.iter().filter_map(|crease| {
+            let halfedge = find_edge(&topology, crease.vertices.map(VertexId))?;
+            topology.twin(halfedge)?;
+            Some((topology.edge(halfedge).0, SharpEdge { halfedge, sharpness: crease.sharpness.value() }))
+        });
+        let vertices = mesh.corners.iter().map(|corner| (corner.vertex, corner.sharpness.value()));
+        // The last tag of an edge counts, even where it takes an earlier one back.
+        let edges = Sparse::new(edges.collect()).filter(|edge: SharpEdge| edge.sharpness > 0.0);
+        let vertices = Sparse::new(vertices.collect()).filter(|sharpness| sharpness > 0.0);
+        let hidden = hidden_faces(&topology, mesh.scheme, &mesh.holes);
+        Ok(Level::with_sharpness(topology, mesh.scheme, edges, vertices, hidden))
+    }
+
+    /// A level from checked parts.
+    pub(crate) fn with_sharpness(
+        topology: Topology,
+        scheme: Scheme,
+        sharp_edges: Sparse<SharpEdge>,
+        vertex_sharpness: Sparse<f64>,
+        hidden: Vec<FaceId>,
+    ) -> Level {
+        let (edge_rules, vertex_rules) = (Sparse::default(), Sparse::default());
+        let mut level =
+            Level { topology, scheme, sharp_edges, vertex_sharpness, edge_rules, vertex_rules, hidden };
+        level.edge_rules = classify_edges(&level);
+        level.vertex_rules = classify_vertices(&level);
+        level
+    }
+
+    /// Who meets whom.
+    pub fn topology(&self) -> &Topology {
+        &self.topology
+    }
+
+    /// Choices of the scheme.
+    pub fn scheme(&self) -> Scheme {
+        self.scheme
+    }
+
+    /// Sharpness of an edge; infinite on the boundary.
+    pub fn edge_sharpness(&self, h: HalfedgeId) -> f64 {
+        if self.topology.twin(h).is_none() {
+            return f64::INFINITY;
+        }
+        self.sharp_edges.get(self.topology.edge(h).0).map_or(0.0, |edge| edge.sharpness)
+    }
+
+    /// Sharpness of a vertex; infinite at a boundary vertex with one face where the scheme says so.
+    pub fn vertex_sharpness(&self, v: VertexId) -> f64 {
+        if self.scheme.boundary == Boundary::EdgeAndCorner
+            && self.topology.is_boundary(v)
+            && self.topology.ring(v).nth(1).is_none()
+        {
+            return f64::INFINITY;
+        }
+        self.vertex_sharpness.get(v.0).unwrap_or(0.0)
+    }
+
+    /// True if an edge or vertex has a sharpness that will fade.
+    pub fn has_semi_sharp(&self) -> bool {
+        self.semi_sharp_edges().next().is_some() || self.semi_sharp_vertices().next().is_some()
+    }
+
+    /// The edges with finite sharpness above zero, by one halfedge each.
+    pub fn semi_sharp_edges(&self) -> impl Iterator<Item = (HalfedgeId, f64)> + '_ {
+        self.sharp_edges
+            .iter()
+            .map(|(_, edge)| (edge.halfedge, edge.sharpness))
+            .filter(|(_, s)| s.is_finite())
+    }
+
+    /// The vertices with finite sharpness above zero.
+    pub fn semi_sharp_vertices(&self) -> impl Iterator<Item = (VertexId, f64)> + '_ {
+        self.vertex_sharpness.iter().filter(|(_, s)| s.is_finite()).map(|(v, s)| (VertexId(v), s))
+    }
+
+    /// The rule of an edge, by either of its halfedges.
+    pub fn edge_rule(&self, h: HalfedgeId) -> EdgeRule {
+        match self.topology.twin(h) {
+            None => EdgeRule::Crease,
+            Some(_) => self.edge_rules.get(self.topology.edge(h).0).unwrap_or(EdgeRule::Smooth),
+        }
+    }
+
+    /// The rule of a vertex.
+    pub fn vertex_rule(&self, v: VertexId) -> VertexRule {
+        self.vertex_rules.get(v.0).unwrap_or_else(|| VertexRule::Of(self.untagged_mask(v)))
+    }
+
+    /// The mask of a vertex that no tag touches.
+    pub(crate) fn untagged_mask(&self, v: VertexId) -> VertexMask {
+        match self.topology.outgoing(v) {
+            None => VertexMask::Corner,
+            Some(h) if self.topology.twin(h).is_some() => VertexMask::Smooth,
+            Some(first) => {
+                let last = self.topology.ring(v).last().unwrap_or(first);
+                if first == last && self.scheme.boundary == Boundary::EdgeAndCorner {
+                    return VertexMask::Corner;
+                }
+                let ends = [self.topology.target(first), self.topology.origin(self.topology.prev(last))];
+                VertexMask::Crease { ends }
+            }
+        }
+    }
+
+    /// Rules that differ from those of an untagged mesh, for the fast path of refinement.
+    pub(crate) fn tagged_rules(&self) -> (&Sparse<EdgeRule>, &Sparse<VertexRule>) {
+        (&self.edge_rules, &self.vertex_rules)
+    }
+
+    /// Faces that take part in refinement but are no part of the surface, in order.
+    pub fn hidden_faces(&self) -> &[FaceId] {
+        &self.hidden
+    }
+
+    /// True if the face is part of the surface.
+    pub fn is_visible(&self, f: FaceId) -> bool {
+        self.hidden.binary_search(&f).is_err()
+    }
+
+    /// Chaikin's rule looks further than one edge; uniform creasing does not.
+    pub(crate) fn is_chaikin(&self) -> bool {
+        self.scheme.creasing == Creasing::Chaikin
+    }
+}
+
+/// The halfedge between two vertices, in either direction.
+pub(crate) fn find_edge(topology: &Topology, [a, b]: [VertexId; 2]) -> Option<HalfedgeId> {
+    topology.ring(a).find_map(|h| {
+        let before = topology.prev(h);
+        if topology.target(h) == b {
+            Some(h)
+        } else if topology.origin(before) == b {
+            Some(before)
+        } else {
+            None
+        }
+    })
+}

@@ -1,0 +1,72 @@
+//! Refined positions of every cage of `testdata/opensubdiv`, levels 1 to 3, by tables and by the fast path.
+
+mod golden;
+
+use golden::{cage, documents, index, list, number, points};
+use ogee::{FaceId, Level, Refinement, Vec3};
+
+/// OpenSubdiv averages sharpness in binary32 where creases of different fractional sharpness fade at one vertex.
+const TOLERANCE: f64 = 1e-13;
+const TOLERANCE_WHERE_CREASES_FADE: f64 = 1e-7;
+
+#[test]
+fn refined_positions_match() {
+    let mut worst_of_all: f64 = 0.0;
+    for (name, document) in documents("opensubdiv") {
+        let mesh = cage(&document["cage"], &document["options"]);
+        let level = Level::new(&mesh).unwrap();
+        let fractional = list(&document["cage"]["creases"])
+            .iter()
+            .chain(list(&document["cage"]["corners"]))
+            .any(|tag| number(&tag["sharpness"]).fract() != 0.0);
+        let tolerance = if fractional { TOLERANCE_WHERE_CREASES_FADE } else { TOLERANCE };
+        for refined in list(&document["refined"]) {
+            let depth = index(&refined["level"]);
+            let refinement = Refinement::uniform(&level, depth).unwrap();
+            let ours = refinement.apply(&mesh.points);
+            let topology = refinement.finest().topology();
+            assert_eq!(topology.vertex_count() as u64, refined["vertex_count"].as_u64().unwrap(), "{name}");
+            assert_eq!(topology.edge_count() as u64, refined["edge_count"].as_u64().unwrap(), "{name}");
+            let theirs = points(&refined["positions"]);
+            for (ptex, grid) in list(&document["ptex_faces"]).iter().zip(list(&refined["grids"])) {
+                let corner = ptex[1].as_i64().unwrap();
+                let corner = (corner >= 0).then_some(corner as u32);
+                let vertices = refinement.grid(FaceId(index(&ptex[0])), corner);
+                let side = vertices.rows();
+                for j in 0..side {
+                    for i in 0..side {
+                        let gap = ours[vertices[(i, j)].index()]
+                            .distance(theirs[index(&grid[j * side + i]) as usize]);
+                        assert!(gap <= tolerance, "{name} level {depth}, {ptex}, ({i}, {j}): {gap:e}");
+                        if !fractional {
+                            worst_of_all = worst_of_all.max(gap);
+                        }
+                    }
+                }
+            }
+        }
+    }
+    println!("largest difference from OpenSubdiv without fractional sharpness: {worst_of_all:e}");
+}
+
+#[test]
+fn fast_path_equals_the_table() {
+    for (name, document) in documents("opensubdiv") {
+        let mesh = cage(&document["cage"], &document["options"]);
+        let mut level = Level::new(&mesh).unwrap();
+        let mut points: Vec<Vec3> = mesh.points.clone();
+        for depth in 1..=3 {
+            let step = level.refine();
+            let by_table = step.stencils.apply(&points);
+            let (next, by_fast_path) = level.refine_points(&points);
+            for (a, b) in by_table.iter().zip(&by_fast_path) {
+                assert!(a.distance(*b) < 1e-14, "{name} level {depth}: {a:?} {b:?}");
+            }
+            assert_eq!(by_table.len(), by_fast_path.len());
+            let fine = level.fine_mesh(&points, 1, u64::MAX).unwrap();
+            assert_eq!(fine.points, by_fast_path, "{name}");
+            assert_eq!(fine.faces, next.quads(), "{name}");
+            (level, points) = (next, by_fast_path);
+        }
+    }
+}
