@@ -6,6 +6,7 @@ mod crease;
 pub mod math;
 pub mod mesh;
 pub mod nurbs;
+pub mod pccm;
 mod refine;
 mod rules;
 mod stencil;

@@ -2,6 +2,7 @@
 
 pub(crate) mod par;
 
+pub(crate) mod circulant;
 mod grid;
 mod interpolate;
 mod vec3;

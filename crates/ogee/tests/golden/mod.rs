@@ -1,5 +1,5 @@
 //! Reads the golden data under `testdata/`; fields as in the notes of `testdata/SOURCES.md`.
-#![allow(dead_code, reason = "each claim uses a part of it")]
+#![allow(dead_code, unreachable_pub, reason = "each claim uses a part of it")]
 
 use ogee::{
     Boundary, ControlMesh, Corner, Crease, Creasing, FaceList, FaceVarying, FaceVaryingRule, Sharpness, Vec3,

@@ -1,0 +1,152 @@
+//! What a cage asks of the conversion: the least level, and what has no rule.
+
+use super::Layer;
+use crate::mesh::{HalfedgeId, Valence, VertexId};
+use crate::rules::Level;
+
+/// The greatest finite sharpness that is converted: a patch has `2^q` cells a side.
+pub const SHARPEST: f64 = 6.0;
+
+/// Why a cage cannot be converted.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PccmError {
+    /// The smooth rule has no tangent plane at valence 2.
+    #[error(
+        "vertex {vertex} has valence 2, where the surface has no tangent plane; dissolve it (join its two edges) first"
+    )]
+    Lens {
+        /// The vertex.
+        vertex: VertexId,
+    },
+    /// A smaller level would not be smooth.
+    #[error("level {level} is too low: {least} is the least, {because}")]
+    LevelTooLow {
+        /// What was asked for.
+        level: u32,
+        /// What is needed.
+        least: u32,
+        /// Why.
+        because: &'static str,
+    },
+    /// A semi-sharp crease or corner would make patches of more than 64 cells a side.
+    #[error(
+        "{place} has sharpness {sharpness}; {SHARPEST} is the most that is converted, or 10 for infinitely sharp"
+    )]
+    TooSharp {
+        /// The edge or vertex, in words.
+        place: String,
+        /// Its sharpness.
+        sharpness: f64,
+    },
+    /// There is no quintic rule for sharp edges and boundaries.
+    #[error("bi5 has no rule for sharp edges and boundaries, such as edge {a}-{b}; use the method pccm")]
+    SharpEdge {
+        /// One end.
+        a: VertexId,
+        /// The other.
+        b: VertexId,
+    },
+    /// There is no quintic rule for sharp vertices.
+    #[error("bi5 has no rule for sharp vertices, such as {vertex}; use the method pccm")]
+    SharpVertex {
+        /// The vertex.
+        vertex: VertexId,
+    },
+    /// Polygons are refined once before.
+    #[error("face {face} is no quad; refine the cage once first")]
+    NotQuads {
+        /// The face.
+        face: crate::mesh::FaceId,
+    },
+}
+
+impl PccmError {
+    /// A stable name in snake case.
+    pub fn code(&self) -> &'static str {
+        match self {
+            PccmError::Lens { .. } => "valence_two",
+            PccmError::LevelTooLow { .. } => "level_too_low",
+            PccmError::TooSharp { .. } => "too_sharp",
+            PccmError::SharpEdge { .. } => "sharp_edge",
+            PccmError::SharpVertex { .. } => "sharp_vertex",
+            PccmError::NotQuads { .. } => "not_quads",
+        }
+    }
+}
+
+/// A level and the reason for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Requirement {
+    /// Refinements before the conversion.
+    pub level: u32,
+    /// Why no fewer, in a few words.
+    pub because: &'static str,
+}
+
+/// The least number of refinements that is right for a level of quads.
+///
+/// SECOND wants 2; FIRST wants 2, or 1 where no edge has two irregular ends and no vertex has even valence of 6 or
+/// more. Semi-sharp creases want as many steps as they take to fade; with Chaikin creases this is an upper bound.
+///
+/// # Errors
+/// If the level has a vertex of valence 2, a crease that is too sharp, or other polygons.
+pub fn least_level(base: &Level, layer: Layer) -> Result<Requirement, PccmError> {
+    refuse(base)?;
+    let mut least = Requirement { level: 2, because: "edges join two irregular vertices" };
+    if layer == Layer::Second {
+        least.because = "the second layer needs four cells a side";
+    } else if !joins_irregular(base) {
+        least = Requirement { level: 1, because: "one refinement is the least" };
+    }
+    let edges = base.semi_sharp_edges().map(|(_, s)| s);
+    let sharpest = edges.chain(base.semi_sharp_vertices().map(|(_, s)| s)).fold(0.0, f64::max);
+    let steps = sharpest.ceil() as u32;
+    // Semi-sharp creases are right from level 2 on, when they have faded.
+    if sharpest > 0.0 && steps.max(2) > least.level {
+        least = Requirement { level: steps.max(2), because: "semi-sharp creases have to fade first" };
+    }
+    Ok(least)
+}
+
+fn refuse(base: &Level) -> Result<(), PccmError> {
+    let topology = base.topology();
+    let faces = (0..topology.face_count() as u32).map(crate::mesh::FaceId);
+    if let Some(face) = faces.into_iter().find(|&f| topology.face_size(f) != 4) {
+        return Err(PccmError::NotQuads { face });
+    }
+    for vertex in (0..topology.vertex_count() as u32).map(VertexId) {
+        let has_two = topology.valence(vertex) == Valence::Interior(2);
+        if has_two && topology.ring(vertex).filter(|&h| base.is_sharp(h)).count() < 2 {
+            return Err(PccmError::Lens { vertex });
+        }
+    }
+    for (h, sharpness) in base.semi_sharp_edges().filter(|&(_, s)| s > SHARPEST) {
+        let place = format!("edge {}-{}", topology.origin(h), topology.target(h));
+        return Err(PccmError::TooSharp { place, sharpness });
+    }
+    for (v, sharpness) in base.semi_sharp_vertices().filter(|&(_, s)| s > SHARPEST) {
+        return Err(PccmError::TooSharp { place: format!("vertex {v}"), sharpness });
+    }
+    Ok(())
+}
+
+/// True if an edge has two irregular ends or a vertex even valence of 6 or more.
+fn joins_irregular(base: &Level) -> bool {
+    use super::{CornerClass, Fan};
+    let topology = base.topology();
+    let irregular: Vec<bool> = (0..topology.vertex_count() as u32)
+        .map(VertexId)
+        .map(|v| {
+            let closing = usize::from(topology.is_boundary(v));
+            let sharp_edges = topology.ring(v).filter(|&h| base.is_sharp(h)).count() + closing;
+            base.sectors(v)
+                .into_iter()
+                .any(|sector| Fan::classify(base, v, sector, sharp_edges) != CornerClass::Regular)
+        })
+        .collect();
+    let both = |h: HalfedgeId| irregular[topology.origin(h).index()] && irregular[topology.target(h).index()];
+    let even = |v: VertexId| matches!(topology.valence(v), Valence::Interior(n) if n >= 6 && n % 2 == 0);
+    (0..topology.halfedge_count() as u32).map(HalfedgeId).any(both)
+        || (0..topology.vertex_count() as u32).map(VertexId).any(even)
+}
