@@ -2,9 +2,9 @@
 
 mod golden;
 
-use golden::{cage, documents, index, list, number, point, points};
+use golden::{cage, documents, index, list, number, points};
 use ogee::Level;
-use ogee::pccm::{Layer, Options, Tangents, to_patches};
+use ogee::pccm::{Layer, Options, Tangents, to_patches, to_quintic_patches};
 
 const TOLERANCE: f64 = 1e-11;
 
@@ -43,4 +43,28 @@ fn control_nets_match() {
         compared += 1;
     }
     assert_eq!(compared, 16);
+}
+
+#[test]
+fn quintic_nets_match() {
+    let mut compared = 0;
+    for (name, document) in documents("pccm") {
+        if document["method"].as_str() != Some("bi5") {
+            continue;
+        }
+        let mesh = cage(&document["cage"], &serde_json::Value::Null);
+        let nets = to_quintic_patches(&Level::new(&mesh).unwrap(), &mesh.points).unwrap();
+        let mut worst: f64 = 0.0;
+        for theirs in list(&document["patches"]) {
+            for (i, row) in list(&theirs["bezier"]).iter().enumerate() {
+                for (j, p) in points(row).into_iter().enumerate() {
+                    worst = worst.max(p.distance(nets[index(&theirs["face"]) as usize][(i, j)]));
+                }
+            }
+        }
+        println!("{name}: {:e}", worst / mesh.size());
+        assert!(worst <= TOLERANCE * mesh.size(), "{name}: {worst:e}");
+        compared += 1;
+    }
+    assert_eq!(compared, 2);
 }

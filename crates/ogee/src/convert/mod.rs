@@ -1,5 +1,6 @@
 //! The whole journey from a cage to a part.
 
 mod part;
+mod sew;
 
 pub use part::{Body, Method, Part, Report};

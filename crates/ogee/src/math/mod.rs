@@ -5,6 +5,7 @@ pub(crate) mod par;
 pub(crate) mod circulant;
 mod grid;
 mod interpolate;
+pub(crate) mod sparse;
 mod vec3;
 
 pub use grid::Grid;

@@ -1,6 +1,7 @@
 //! Polynomial B-spline curves and surfaces of any degree, and the shells and parts made of them.
 
-mod curve;
+pub(crate) mod basis;
+pub(crate) mod curve;
 mod knots;
 mod shell;
 mod surface;
@@ -8,4 +9,4 @@ mod surface;
 pub use curve::NurbsCurve;
 pub use knots::KnotVector;
 pub use shell::{EdgeUse, FaceAddress, Shell, ShellEdge, ShellFace, Side};
-pub use surface::NurbsSurface;
+pub use surface::{NurbsSurface, SurfaceJet};

@@ -7,18 +7,22 @@
 //! place limit points and tangents at irregular corners (`corner`), then edge curves, second rows and twists (`edge`).
 
 mod bi5;
+mod chart_surface;
 mod constants;
 mod corner;
 mod edge;
 mod fan;
 mod net;
+mod packing;
 mod requirements;
 
 pub use bi5::to_quintic_patches;
 pub use fan::CornerClass;
 pub use requirements::{PccmError, Requirement, SHARPEST, least_level};
 
+pub(crate) use chart_surface::Pieces;
 pub(crate) use net::{Cells, view};
+pub(crate) use packing::{Chart, Placed, pack, unpacked};
 
 use crate::math::{Grid, Vec3, par};
 use crate::mesh::{HalfedgeId, Note, Place, VertexId};

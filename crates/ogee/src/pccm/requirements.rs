@@ -1,7 +1,7 @@
 //! What a cage asks of the conversion: the least level, and what has no rule.
 
 use super::Layer;
-use crate::mesh::{HalfedgeId, Valence, VertexId};
+use crate::mesh::{FaceId, HalfedgeId, Valence, VertexId};
 use crate::rules::Level;
 
 /// The greatest finite sharpness that is converted: a patch has `2^q` cells a side.
@@ -57,7 +57,7 @@ pub enum PccmError {
     #[error("face {face} is no quad; refine the cage once first")]
     NotQuads {
         /// The face.
-        face: crate::mesh::FaceId,
+        face: FaceId,
     },
 }
 
@@ -111,22 +111,30 @@ pub fn least_level(base: &Level, layer: Layer) -> Result<Requirement, PccmError>
 
 fn refuse(base: &Level) -> Result<(), PccmError> {
     let topology = base.topology();
-    let faces = (0..topology.face_count() as u32).map(crate::mesh::FaceId);
-    if let Some(face) = faces.into_iter().find(|&f| topology.face_size(f) != 4) {
-        return Err(PccmError::NotQuads { face });
-    }
-    for vertex in (0..topology.vertex_count() as u32).map(VertexId) {
-        let has_two = topology.valence(vertex) == Valence::Interior(2);
-        if has_two && topology.ring(vertex).filter(|&h| base.is_sharp(h)).count() < 2 {
-            return Err(PccmError::Lens { vertex });
-        }
-    }
+    refuse_valence_two(base)?;
     for (h, sharpness) in base.semi_sharp_edges().filter(|&(_, s)| s > SHARPEST) {
         let place = format!("edge {}-{}", topology.origin(h), topology.target(h));
         return Err(PccmError::TooSharp { place, sharpness });
     }
     for (v, sharpness) in base.semi_sharp_vertices().filter(|&(_, s)| s > SHARPEST) {
         return Err(PccmError::TooSharp { place: format!("vertex {v}"), sharpness });
+    }
+    Ok(())
+}
+
+/// Faces that are no quads, and vertices of valence 2.
+pub(super) fn refuse_valence_two(base: &Level) -> Result<(), PccmError> {
+    let topology = base.topology();
+    let mut faces = (0..topology.face_count() as u32).map(FaceId);
+    if let Some(face) = faces.find(|&f| topology.face_size(f) != 4) {
+        return Err(PccmError::NotQuads { face });
+    }
+    for vertex in (0..topology.vertex_count() as u32).map(VertexId) {
+        let has_two = topology.valence(vertex) == Valence::Interior(2);
+        // Two sharp edges make two sides of a crease, one face each: that is no lens.
+        if has_two && topology.ring(vertex).filter(|&h| base.is_sharp(h)).count() < 2 {
+            return Err(PccmError::Lens { vertex });
+        }
     }
     Ok(())
 }
