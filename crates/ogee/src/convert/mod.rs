@@ -1,6 +1,362 @@
-//! The whole journey from a cage to a part.
+//! The whole journey from a cage to a part: which method takes which faces, packing, sewing, measuring.
+//!
+//! So that the command line, and whatever else calls it, make the same part from the same cage.
 
+mod bodies;
+mod deviation;
+mod measure;
 mod part;
 mod sew;
 
 pub use part::{Body, Method, Part, Report};
+
+use crate::math::{Grid, Vec3, par};
+use crate::mesh::{ControlMesh, FaceId, HalfedgeId, Note, TopologyError, notes};
+use crate::nurbs::{FaceAddress, KnotVector, NurbsSurface};
+use crate::pccm::{self, Layer, PccmError, Pieces, least_level, pack, unpacked};
+use crate::refine::TooDeep;
+use crate::rules::Level;
+use deviation::{Measured, QuadCell};
+use measure::Continuity;
+use sew::Face;
+
+/// The greatest level that [`to_part`] tries when asked for a deviation, and accepts when asked for a level.
+pub const DEEPEST_LEVEL: u32 = 6;
+
+/// Whether regular quads are joined into large surfaces.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Packing {
+    /// As few faces as rectangles of quads allow.
+    #[default]
+    Packed,
+    /// One face per quad.
+    Unpacked,
+}
+
+/// Which axis of the cage points up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum UpAxis {
+    /// Axes stay what they are.
+    #[default]
+    Z,
+    /// The part is turned, `(x, y, z) -> (x, -z, y)`, so that `z` points up.
+    Y,
+}
+
+/// Choices of [`to_part`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Options {
+    /// The construction.
+    pub method: Method,
+    /// Refinements before the conversion; `None` for the least that is right for the cage.
+    pub level: Option<u32>,
+    /// Raise the level until the measured deviation from the limit surface is below this length.
+    pub max_deviation: Option<f64>,
+    /// Join regular quads.
+    pub packing: Packing,
+    /// Turn the part.
+    pub up: UpAxis,
+}
+
+/// Why a cage could not be converted.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ConvertError {
+    /// The cage is no sound mesh.
+    #[error(transparent)]
+    Topology(#[from] TopologyError),
+    /// The method has no rule for it.
+    #[error(transparent)]
+    Pccm(#[from] PccmError),
+    /// It does not fit.
+    #[error(transparent)]
+    TooDeep(#[from] TooDeep),
+    /// All faces are holes, or touch a boundary that is left out.
+    #[error("no face of the cage is part of the surface")]
+    NoSurface,
+    /// A level beyond what is supported.
+    #[error("level {level} is too high, {DEEPEST_LEVEL} is the most")]
+    LevelTooHigh {
+        /// What was asked for.
+        level: u32,
+    },
+    /// The deviation asked for is not reached.
+    #[error("the deviation is {reached:.3e} at level {level}, not below {wanted:.3e}")]
+    Deviation {
+        /// What was asked for.
+        wanted: f64,
+        /// What was measured.
+        reached: f64,
+        /// On which level.
+        level: u32,
+    },
+}
+
+impl ConvertError {
+    /// A stable name in snake case.
+    pub fn code(&self) -> &'static str {
+        match self {
+            ConvertError::Topology(error) => error.defects[0].code(),
+            ConvertError::Pccm(error) => error.code(),
+            ConvertError::TooDeep(_) => "too_deep",
+            ConvertError::NoSurface => "no_surface",
+            ConvertError::LevelTooHigh { .. } => "level_too_high",
+            ConvertError::Deviation { .. } => "deviation",
+        }
+    }
+}
+
+/// Converts a cage to solids and sheets of smooth NURBS faces.
+///
+/// ```
+/// use ogee::{convert, shapes};
+/// let part = convert::to_part(&shapes::cube(), &convert::Options::default())?;
+/// assert_eq!((part.report.solids, part.report.faces_written), (1, 6));
+/// assert!(part.report.max_normal_angle_deg < 1e-9);
+/// # Ok::<(), convert::ConvertError>(())
+/// ```
+///
+/// # Errors
+/// If the cage has defects, a vertex that the method has no rule for, or asks for more than a level can give.
+pub fn to_part(mesh: &ControlMesh, options: &Options) -> Result<Part, ConvertError> {
+    let source = Source::new(mesh, options.up)?;
+    if source.quads.hidden_faces().len() == source.quads.topology().face_count() {
+        return Err(ConvertError::NoSurface);
+    }
+    let least = source.least_level(options.method)?;
+    if let Some(level) = options.level.filter(|&level| level > DEEPEST_LEVEL) {
+        return Err(ConvertError::LevelTooHigh { level });
+    }
+    let first = options.level.unwrap_or(least);
+    let mut level = first;
+    loop {
+        let patches = Converted::new(&source, options.method, level)?;
+        let deviation = patches.deviation();
+        match options.max_deviation {
+            Some(wanted) if deviation >= wanted && level < DEEPEST_LEVEL && options.level.is_none() => {
+                level += 1
+            }
+            Some(wanted) if deviation >= wanted => {
+                return Err(ConvertError::Deviation { wanted, reached: deviation, level });
+            }
+            _ => return Ok(finish(&source, patches, deviation, options, mesh)),
+        }
+    }
+}
+
+/// A cage made ready: turned, near the origin, of quads.
+struct Source {
+    centre: Vec3,
+    /// Diagonal of the cage's bounding box.
+    size: f64,
+    quads: Level,
+    points: Vec<Vec3>,
+    /// For each quad the piece of the cage that it is.
+    addresses: Vec<FaceAddress>,
+    cage_faces: usize,
+}
+
+impl Source {
+    fn new(mesh: &ControlMesh, up: UpAxis) -> Result<Source, TopologyError> {
+        let cage = Level::new(mesh)?;
+        let turned = |p: Vec3| match up {
+            UpAxis::Z => p,
+            UpAxis::Y => Vec3::new(p.x, -p.z, p.y),
+        };
+        let points: Vec<Vec3> = mesh.points.iter().map(|&p| turned(p)).collect();
+        let first = points.first().copied().unwrap_or(Vec3::ZERO);
+        let [low, high] = points.iter().fold([first, first], |[low, high], &p| [low.min(p), high.max(p)]);
+        // Rounding grows with the distance from the origin.
+        let centre = low.lerp(high, 0.5);
+        let centred: Vec<Vec3> = points.into_iter().map(|p| p - centre).collect();
+        let topology = cage.topology();
+        let faces = (0..topology.face_count() as u32).map(FaceId);
+        let mut source = Source {
+            centre,
+            size: low.distance(high),
+            cage_faces: topology.face_count(),
+            addresses: faces.clone().map(|face| FaceAddress { face, corner: None }).collect(),
+            points: centred,
+            quads: cage.clone(),
+        };
+        if !topology.is_quads() {
+            let corners = faces.flat_map(|face| {
+                (0..topology.face_size(face)).map(move |corner| FaceAddress { face, corner: Some(corner) })
+            });
+            source.addresses = corners.collect();
+            (source.quads, source.points) = cage.refine_points(&source.points);
+        }
+        Ok(source)
+    }
+
+    fn least_level(&self, method: Method) -> Result<u32, PccmError> {
+        Ok(match method {
+            Method::Pccm => least_level(&self.quads, Layer::Second)?.level,
+            Method::PccmFirst => least_level(&self.quads, Layer::First)?.level,
+            Method::Bi5 => 0,
+        })
+    }
+}
+
+/// Patches of all quads, by whichever method.
+struct Converted<'a> {
+    level: u32,
+    base: std::borrow::Cow<'a, Level>,
+    points: std::borrow::Cow<'a, [Vec3]>,
+    /// For each quad of the base that of the source.
+    source_quads: Vec<u32>,
+    /// One per quad of the base, in cells.
+    surfaces: Vec<NurbsSurface>,
+    kind: Kind,
+}
+
+enum Kind {
+    Bicubic { patches: pccm::Patches, layer: Layer },
+    Quintic,
+}
+
+impl<'a> Converted<'a> {
+    fn new(source: &'a Source, method: Method, level: u32) -> Result<Converted<'a>, ConvertError> {
+        use std::borrow::Cow;
+        source.quads.check_depth(level, u64::MAX)?;
+        let layer = match method {
+            Method::Pccm => Layer::Second,
+            Method::PccmFirst => Layer::First,
+            Method::Bi5 => return Converted::quintic(source, level),
+        };
+        let options = pccm::Options { layer, level, ..pccm::Options::default() };
+        let patches = pccm::to_patches(&source.quads, &source.points, &options)?;
+        let surface = |net: &Grid<Vec3>| NurbsSurface {
+            u: patches.knots.clone(),
+            v: patches.knots.clone(),
+            net: net.clone(),
+        };
+        Ok(Converted {
+            level,
+            base: Cow::Borrowed(&source.quads),
+            points: Cow::Borrowed(&source.points),
+            source_quads: (0..patches.nets.len() as u32).collect(),
+            surfaces: patches.nets.iter().map(surface).collect(),
+            kind: Kind::Bicubic { patches, layer },
+        })
+    }
+
+    /// A quintic has no inner knots: a level means more patches.
+    fn quintic(source: &'a Source, level: u32) -> Result<Converted<'a>, ConvertError> {
+        use std::borrow::Cow;
+        let (mut base, mut points) = (Cow::Borrowed(&source.quads), Cow::Borrowed(&source.points[..]));
+        for _ in 0..level {
+            let (next, next_points) = base.refine_points(&points);
+            (base, points) = (Cow::Owned(next), Cow::Owned(next_points));
+        }
+        let nets = pccm::to_quintic_patches(&base, &points)?;
+        let knots = KnotVector::from_multiplicities(5, [(0.0, 6), (1.0, 6)]);
+        let surfaces = nets.into_iter().map(|net| NurbsSurface { u: knots.clone(), v: knots.clone(), net });
+        let source_quads = (0..base.topology().face_count() as u32).map(|quad| quad >> (2 * level)).collect();
+        Ok(Converted { level, surfaces: surfaces.collect(), source_quads, base, points, kind: Kind::Quintic })
+    }
+
+    fn deviation(&self) -> f64 {
+        let (level, cells, steps_more): (u32, Vec<QuadCell>, u32) = match &self.kind {
+            Kind::Bicubic { patches, .. } => {
+                (self.level, deviation::changed_cells(&self.base, self.level, &patches.classes), 0)
+            }
+            Kind::Quintic => (0, deviation::all_cells(&self.base, 0), 2),
+        };
+        let measured = Measured { base: &self.base, points: &self.points, level, surfaces: &self.surfaces };
+        deviation::largest_deviation(&measured, &cells, steps_more)
+    }
+
+    /// Charts with their surfaces, in quads.
+    fn faces(&self, packing: Packing) -> Vec<Face> {
+        let Kind::Bicubic { patches, layer } = &self.kind else {
+            let faces = unpacked(&self.base).into_iter().map(|chart| {
+                let surface = self.surfaces[chart.quads[(0, 0)].quad as usize].clone();
+                Face { chart, surface }
+            });
+            return faces.collect();
+        };
+        let charts = match packing {
+            Packing::Packed => pack(&self.base, &patches.classes),
+            Packing::Unpacked => unpacked(&self.base),
+        };
+        let pieces = Pieces::new(&self.base, &self.points, patches, *layer);
+        let surfaces = par::map(charts.len(), |chart| pieces.surface(&charts[chart]));
+        charts.into_iter().zip(surfaces).map(|(chart, surface)| Face { chart, surface }).collect()
+    }
+
+    fn broken(&self) -> &[HalfedgeId] {
+        match &self.kind {
+            Kind::Bicubic { patches, .. } => &patches.broken,
+            Kind::Quintic => &[],
+        }
+    }
+
+    fn notes(&self) -> &[Note] {
+        match &self.kind {
+            Kind::Bicubic { patches, .. } => &patches.notes,
+            Kind::Quintic => &[],
+        }
+    }
+}
+
+/// Sews, sorts, measures, and moves the part back to where the cage was.
+fn finish(
+    source: &Source,
+    patches: Converted<'_>,
+    deviation: f64,
+    options: &Options,
+    mesh: &ControlMesh,
+) -> Part {
+    let mut all_notes = notes(mesh);
+    all_notes.extend_from_slice(patches.notes());
+    let address = |quad: u32| source.addresses[patches.source_quads[quad as usize] as usize];
+    let shells = sew::sew(&patches.base, patches.faces(options.packing), patches.broken(), address);
+    let mut bodies = bodies::bodies(shells, &mut all_notes);
+
+    let mut continuity = Continuity::default();
+    let (mut volume, mut area) = (0.0, 0.0);
+    let mut extent: Option<[Vec3; 2]> = None;
+    let mut report = Report {
+        method: options.method,
+        level: patches.level,
+        cage_faces: source.cage_faces,
+        patches: patches.surfaces.len() - patches.base.hidden_faces().len(),
+        max_deviation: deviation,
+        max_deviation_relative: if source.size > 0.0 { deviation / source.size } else { 0.0 },
+        closed: true,
+        ..Report::default()
+    };
+    for body in &bodies {
+        for (number, shell) in body.shells().enumerate() {
+            continuity = continuity.join(measure::continuity(shell));
+            let (own_volume, own_area) = measure::volume_and_area(shell);
+            volume += if number == 0 { own_volume } else { -own_volume };
+            area += own_area;
+            if let Some([low, high]) = measure::bounding_box(shell) {
+                extent = Some(extent.map_or([low, high], |[a, b]| [a.min(low), b.max(high)]));
+            }
+            report.faces_written += shell.faces.len();
+            report.edges += shell.edges.len();
+            report.vertices += shell.vertices.len();
+            report.shells += 1;
+        }
+        match body {
+            Body::Solid { .. } => report.solids += 1,
+            Body::Sheet(_) => report.closed = false,
+        }
+    }
+    for body in &mut bodies {
+        body.shells_mut().for_each(|shell| shell.translate(source.centre));
+    }
+    report.volume = report.closed.then_some(volume);
+    report.area = area;
+    report.bounding_box = extent.unwrap_or_default().map(|corner| corner + source.centre);
+    report.max_gap = continuity.max_gap;
+    report.max_normal_angle_deg = continuity.max_normal_angle.to_degrees();
+    report.max_curvature_jump = continuity.max_curvature_jump * source.size;
+    report.smooth_edges = continuity.smooth_edges;
+    report.sharp_edges = continuity.sharp_edges;
+    report.notes = all_notes;
+    Part { bodies, report }
+}

@@ -37,6 +37,14 @@ impl Body {
         };
         std::iter::once(first).chain(voids)
     }
+
+    pub(super) fn shells_mut(&mut self) -> impl Iterator<Item = &mut Shell> + '_ {
+        let (first, voids): (&mut Shell, &mut [Shell]) = match self {
+            Body::Solid { outer, voids } => (outer, voids),
+            Body::Sheet(shell) => (shell, &mut []),
+        };
+        std::iter::once(first).chain(voids)
+    }
 }
 
 /// The construction that makes patches from a cage.
@@ -89,7 +97,7 @@ pub struct Report {
     pub volume: Option<f64>,
     /// Surface area.
     pub area: f64,
-    /// Bounding box of the patches' coefficients, `[least, greatest]`.
+    /// Bounding box of the surface, `[least, greatest]`.
     pub bounding_box: [Vec3; 2],
     /// Largest angle between the normals of both sides over smooth shared edges, in degrees.
     pub max_normal_angle_deg: f64,

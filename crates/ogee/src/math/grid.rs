@@ -38,6 +38,11 @@ impl<T> Grid<T> {
         &self.cells
     }
 
+    /// All cells, `j` fastest, to be changed.
+    pub fn cells_mut(&mut self) -> &mut [T] {
+        &mut self.cells
+    }
+
     /// The row `i`: all `j`.
     ///
     /// # Panics

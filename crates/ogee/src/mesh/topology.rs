@@ -92,8 +92,21 @@ impl Topology {
         if !pairs.manifold {
             return None;
         }
-        let quads = faces.iter().all(|face| face.len() == 4);
-        let layout = if quads {
+        let mut topology = Topology::unchecked(faces, vertices, pairs);
+        topology.choose_outgoing().then_some(topology)
+    }
+
+    /// The connectivity of faces taken out of a sound mesh. On the rim a vertex may belong to several fans; its ring
+    /// is then one of them.
+    pub(crate) fn of_part(faces: &FaceList, vertices: usize) -> Topology {
+        let mut topology = Topology::unchecked(faces, vertices, pair_halfedges(faces, vertices));
+        topology.choose_outgoing();
+        topology
+    }
+
+    /// All arrays but `outgoing`.
+    fn unchecked(faces: &FaceList, vertices: usize, pairs: Pairing) -> Topology {
+        let layout = if faces.iter().all(|face| face.len() == 4) {
             Layout::Quads
         } else {
             let face =
@@ -109,7 +122,7 @@ impl Topology {
             layout,
         };
         topology.number_edges();
-        topology.choose_outgoing().then_some(topology)
+        topology
     }
 
     fn number_edges(&mut self) {

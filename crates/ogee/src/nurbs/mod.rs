@@ -3,10 +3,12 @@
 pub(crate) mod basis;
 pub(crate) mod curve;
 mod knots;
+mod quadrature;
 mod shell;
 mod surface;
 
 pub use curve::NurbsCurve;
 pub use knots::KnotVector;
+pub(crate) use quadrature::gauss;
 pub use shell::{EdgeUse, FaceAddress, Shell, ShellEdge, ShellFace, Side};
 pub use surface::{NurbsSurface, SurfaceJet};

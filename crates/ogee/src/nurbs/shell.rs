@@ -106,4 +106,45 @@ impl Shell {
         }
         !self.faces.is_empty() && uses.iter().all(|&count| count == [1, 1])
     }
+
+    /// The same shell with every face turned round.
+    pub fn reversed(&self) -> Shell {
+        let faces = self.faces.iter().map(|face| {
+            let boundary = face.boundary.iter().rev().map(|used| EdgeUse {
+                edge: used.edge,
+                forward: !used.forward,
+                // With `u` and `v` exchanged.
+                side: match used.side {
+                    Side::V0 => Side::U0,
+                    Side::U0 => Side::V0,
+                    Side::U1 => Side::V1,
+                    Side::V1 => Side::U1,
+                },
+                range: [used.range[1], used.range[0]],
+            });
+            ShellFace {
+                surface: face.surface.transposed(),
+                boundary: boundary.collect(),
+                quads: face.quads.transposed(),
+            }
+        });
+        Shell { vertices: self.vertices.clone(), edges: self.edges.clone(), faces: faces.collect() }
+    }
+
+    /// Moves every point of the shell.
+    pub(crate) fn translate(&mut self, by: Vec3) {
+        for vertex in &mut self.vertices {
+            *vertex += by;
+        }
+        for edge in &mut self.edges {
+            for point in &mut edge.curve.points {
+                *point += by;
+            }
+        }
+        for face in &mut self.faces {
+            for point in face.surface.net.cells_mut() {
+                *point += by;
+            }
+        }
+    }
 }

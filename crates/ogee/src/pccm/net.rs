@@ -91,6 +91,11 @@ impl<'a> Cells<'a> {
         (quad << (2 * self.level)) + self.template[(i, j)].0
     }
 
+    /// By how many corners the face at cell `(i, j)` is turned against its quad.
+    pub(crate) fn turns(&self, i: usize, j: usize) -> u32 {
+        self.template[(i, j)].1
+    }
+
     /// The halfedge of the refined level that leaves corner `corner` (in the base quad's frame) of a cell.
     pub(crate) fn halfedge(&self, quad: u32, (i, j): (usize, usize), corner: usize) -> HalfedgeId {
         let turns = self.template[(i, j)].1;

@@ -9,3 +9,4 @@ mod uniform;
 pub use fine::{FineMesh, TooDeep};
 pub use step::Step;
 pub use uniform::Refinement;
+pub(crate) use uniform::sub_grid;

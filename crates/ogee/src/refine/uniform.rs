@@ -90,6 +90,12 @@ impl QuadPath {
     }
 }
 
+/// The vertices of `finest` over quad `quad` of the level `depth` steps above it, in a frame against which that quad is
+/// turned by `turns` corners.
+pub(crate) fn sub_grid(finest: &Level, quad: u32, turns: u32, depth: u32) -> Grid<VertexId> {
+    quad_grid(finest, QuadPath { first: 4 * quad, turns }, depth)
+}
+
 /// The vertices of `finest` over a quad `depth` levels above it.
 fn quad_grid(finest: &Level, root: QuadPath, depth: u32) -> Grid<VertexId> {
     let side = 1usize << depth;

@@ -157,6 +157,14 @@ impl Level {
         (&self.edge_rules, &self.vertex_rules)
     }
 
+    pub(crate) fn sharp_edges(&self) -> &Sparse<SharpEdge> {
+        &self.sharp_edges
+    }
+
+    pub(crate) fn sharp_vertices(&self) -> &Sparse<f64> {
+        &self.vertex_sharpness
+    }
+
     /// Faces that take part in refinement but are no part of the surface, in order.
     pub fn hidden_faces(&self) -> &[FaceId] {
         &self.hidden

@@ -8,6 +8,7 @@ mod sector;
 mod sparse;
 
 pub use level::Level;
+pub(crate) use level::{SharpEdge, find_edge};
 pub use sector::Sector;
 pub(crate) use sparse::Sparse;
 

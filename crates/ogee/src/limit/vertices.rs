@@ -1,0 +1,122 @@
+//! Limit position and normal of every vertex of a level.
+
+use super::masks::{self, Frame};
+use crate::math::{Vec3, par};
+use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::patch::{Neighbourhood, with_ring};
+use crate::rules::Level;
+
+/// Where a vertex ends up, and which way the surface faces there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LimitVertex {
+    /// The limit position.
+    pub position: Vec3,
+    /// The unit normal; on a crease or at a corner the mean of the sides. `None` where the surface is singular, or at
+    /// an isolated vertex.
+    pub normal: Option<Vec3>,
+}
+
+/// Steps after which a neighbourhood has converged: the slowest mode shrinks by less than 0.66 a step.
+const CONVERGED: u32 = 90;
+
+/// The limit of every vertex.
+///
+/// Where the masks hold at once (quads, no finite sharpness) they are used; elsewhere the vertex's neighbourhood is
+/// refined until they do, or, at a dart and at a tagged vertex inside a smooth region, until it has converged. Costs
+/// a few dozen nanoseconds a regular vertex, some microseconds the others.
+///
+/// # Panics
+/// If there are fewer points than vertices.
+pub fn limit_vertices(level: &Level, points: &[Vec3]) -> Vec<LimitVertex> {
+    let mut out = vec![LimitVertex { position: Vec3::ZERO, normal: None }; level.topology().vertex_count()];
+    par::fill(&mut out, |v| limit_vertex(level, points, VertexId(v as u32)));
+    out
+}
+
+/// The limit of one vertex.
+pub(crate) fn limit_vertex(level: &Level, points: &[Vec3], v: VertexId) -> LimitVertex {
+    if level.topology().outgoing(v).is_none() {
+        return LimitVertex { position: points[v.index()], normal: None };
+    }
+    if masks_hold(level, v) {
+        return by_masks(level, points, v);
+    }
+    let mut taken = around(level, points, v);
+    for _ in 0..CONVERGED {
+        let (level, points, v) = &taken;
+        if masks_hold(level, *v) {
+            return by_masks(level, points, *v);
+        }
+        let (finer, finer_points) = level.refine_points(points);
+        taken = around(&finer, &finer_points, *v);
+    }
+    let (level, points, v) = &taken;
+    let normal = level.topology().ring(*v).fold(Vec3::ZERO, |sum, h| {
+        let at = |v: VertexId| points[v.index()] - points[taken.2.index()];
+        let (edge, next) =
+            (at(level.topology().target(h)), at(level.topology().origin(level.topology().prev(h))));
+        sum + edge.cross(next).normalized().unwrap_or(Vec3::ZERO)
+    });
+    LimitVertex { position: points[v.index()], normal: normal.normalized() }
+}
+
+/// The vertex with two rings of faces: creases look that far.
+fn around(level: &Level, points: &[Vec3], v: VertexId) -> (Level, Vec<Vec3>, VertexId) {
+    let faces: Vec<FaceId> = level.topology().ring(v).map(|h| level.topology().face(h)).collect();
+    let part = Neighbourhood::new(level, &with_ring(level, &faces));
+    let own = part.own(v).unwrap_or(VertexId(0));
+    let points = part.take(points);
+    (part.level, points, own)
+}
+
+fn masks_hold(level: &Level, v: VertexId) -> bool {
+    let topology = level.topology();
+    let settled = |s: f64| s == 0.0 || s.is_infinite();
+    if !settled(level.vertex_sharpness(v)) {
+        return false;
+    }
+    let mut sharp = usize::from(topology.is_boundary(v));
+    for h in topology.ring(v) {
+        let s = level.edge_sharpness(h);
+        if topology.face_size(topology.face(h)) != 4 || !settled(s) {
+            return false;
+        }
+        sharp += usize::from(s > 0.0);
+    }
+    // A dart, or a cone: no mask.
+    !(sharp == 1 || sharp == 0 && level.vertex_sharpness(v) > 0.0)
+}
+
+fn by_masks(level: &Level, points: &[Vec3], v: VertexId) -> LimitVertex {
+    let topology = level.topology();
+    let at = |v: VertexId| points[v.index()];
+    let sectors = level.sectors(v);
+    let is_corner =
+        level.vertex_sharpness(v) > 0.0 || sectors.len() + usize::from(topology.is_boundary(v)) > 2;
+    let mut position = at(v);
+    let mut normal = Vec3::ZERO;
+    for sector in sectors {
+        let halfedges: Vec<HalfedgeId> = level.sector_halfedges(sector).collect();
+        let mut edges: Vec<Vec3> = halfedges.iter().map(|&h| at(topology.target(h))).collect();
+        let diagonals: Vec<Vec3> = halfedges.iter().map(|&h| at(topology.target(topology.next(h)))).collect();
+        let frame: Frame = if sector.closed {
+            masks::smooth(at(v), &edges, &diagonals)
+        } else {
+            edges.extend(halfedges.last().map(|&h| at(topology.origin(topology.prev(h)))));
+            if is_corner { masks::corner(at(v), &edges) } else { masks::crease(at(v), &edges, &diagonals) }
+        };
+        position = frame.position;
+        let side = frame.tangents[0].cross(frame.tangents[1]).normalized().unwrap_or(Vec3::ZERO);
+        // The two sharp edges of a reflex corner span the plane the wrong way round.
+        let faces = newell(at(v), &edges);
+        normal += if side.dot(faces) < 0.0 { -side } else { side };
+    }
+    LimitVertex { position, normal: normal.normalized() }
+}
+
+/// Twice the area vector of the fan of edges: roughly where the faces look.
+fn newell(vertex: Vec3, edges: &[Vec3]) -> Vec3 {
+    let around =
+        edges.iter().zip(edges.iter().cycle().skip(1)).take(if edges.len() > 2 { edges.len() } else { 1 });
+    around.fold(Vec3::ZERO, |sum, (&a, &b)| sum + (a - vertex).cross(b - vertex))
+}

@@ -1,0 +1,77 @@
+//! `Neighbourhood`: some faces of a level as a level of their own.
+
+use crate::mesh::{FaceId, FaceList, Topology, VertexId};
+use crate::rules::{Level, SharpEdge, Sparse, find_edge};
+
+/// Some faces of a level, with their tags, as a small level.
+///
+/// Its rim is cut: what is computed there from faces that were left behind is meaningless. What depends only on faces
+/// that are inside is as on the whole level.
+pub(crate) struct Neighbourhood {
+    pub(crate) level: Level,
+    /// For each of its vertices the one of the whole level.
+    pub(crate) vertices: Vec<VertexId>,
+}
+
+impl Neighbourhood {
+    /// The given faces, in their order.
+    pub(crate) fn new(whole: &Level, faces: &[FaceId]) -> Neighbourhood {
+        let topology = whole.topology();
+        let corners = |f: FaceId| topology.halfedges(f).map(|h| topology.origin(h).0);
+        let mut vertices: Vec<u32> = faces.iter().flat_map(|&f| corners(f)).collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        let own = |v: u32| vertices.partition_point(|&other| other < v) as u32;
+        let mut list = FaceList::with_capacity(faces.len(), 4 * faces.len());
+        for &f in faces {
+            list.push(&corners(f).map(own).collect::<Vec<u32>>());
+        }
+        let own_topology = Topology::of_part(&list, vertices.len());
+        let mut sharp = Vec::new();
+        for (_, edge) in whole.sharp_edges().iter() {
+            let ends = [topology.origin(edge.halfedge), topology.target(edge.halfedge)];
+            if ends.iter().any(|v| vertices.binary_search(&v.0).is_err()) {
+                continue;
+            }
+            let found = find_edge(&own_topology, ends.map(|v| VertexId(own(v.0))));
+            if let Some(halfedge) = found.filter(|&h| own_topology.twin(h).is_some()) {
+                sharp
+                    .push((own_topology.edge(halfedge).0, SharpEdge { halfedge, sharpness: edge.sharpness }));
+            }
+        }
+        let tagged = whole.sharp_vertices().iter().filter(|(v, _)| vertices.binary_search(v).is_ok());
+        let sharp_vertices = Sparse::new(tagged.map(|(v, s)| (own(v), s)).collect());
+        let level = Level::with_sharpness(
+            own_topology,
+            whole.scheme(),
+            Sparse::new(sharp),
+            sharp_vertices,
+            Vec::new(),
+        );
+        Neighbourhood { level, vertices: vertices.into_iter().map(VertexId).collect() }
+    }
+
+    /// Its vertex for a vertex of the whole level.
+    pub(crate) fn own(&self, v: VertexId) -> Option<VertexId> {
+        self.vertices.binary_search(&v).ok().map(|own| VertexId(own as u32))
+    }
+
+    /// Data of the whole level at its own vertices.
+    pub(crate) fn take<T: Clone>(&self, data: &[T]) -> Vec<T> {
+        self.vertices.iter().map(|v| data[v.index()].clone()).collect()
+    }
+}
+
+/// The given faces and all that touch them, each once, in order.
+pub(crate) fn with_ring(level: &Level, faces: &[FaceId]) -> Vec<FaceId> {
+    let topology = level.topology();
+    let mut out: Vec<FaceId> = faces
+        .iter()
+        .flat_map(|&f| topology.halfedges(f))
+        .flat_map(|h| topology.ring(topology.origin(h)))
+        .map(|h| topology.face(h))
+        .collect();
+    out.sort_unstable();
+    out.dedup();
+    out
+}

@@ -1,0 +1,153 @@
+//! What a part promises: closed where the cage is, no gaps, tangent planes shared, volume and deviation as measured by
+//! the reference implementation.
+
+mod golden;
+
+use golden::{cage, documents};
+use ogee::convert::{Body, Method, Options, Packing, Part, to_part};
+use ogee::nurbs::Side;
+use ogee::{ControlMesh, Vec3, shapes};
+
+fn check(name: &str, mesh: &ControlMesh, part: &Part) {
+    let report = &part.report;
+    let size = mesh.size();
+    println!(
+        "{name}: level {}, {} faces, gap {:.1e}, angle {:.1e} deg, jump {:.1e}, deviation {:.2e}",
+        report.level,
+        report.faces_written,
+        report.max_gap / size,
+        report.max_normal_angle_deg,
+        report.max_curvature_jump,
+        report.max_deviation_relative
+    );
+    assert!(report.max_gap <= 1e-13 * size, "{name}");
+    assert!(report.max_normal_angle_deg.to_radians() <= 1e-10, "{name}");
+    for shell in part.bodies.iter().flat_map(Body::shells) {
+        for edge in &shell.edges {
+            let points = &edge.curve.points;
+            assert_eq!(points[0], shell.vertices[edge.start as usize], "{name}");
+            assert_eq!(points[points.len() - 1], shell.vertices[edge.end as usize], "{name}");
+        }
+        for face in &shell.faces {
+            // The loop runs head to tail.
+            let ends: Vec<[u32; 2]> = face
+                .boundary
+                .iter()
+                .map(|used| {
+                    let edge = &shell.edges[used.edge as usize];
+                    if used.forward { [edge.start, edge.end] } else { [edge.end, edge.start] }
+                })
+                .collect();
+            for (k, end) in ends.iter().enumerate() {
+                assert_eq!(end[1], ends[(k + 1) % ends.len()][0], "{name}");
+            }
+            assert_eq!(face.boundary[0].side, Side::V0, "{name}");
+            for used in &face.boundary {
+                let edge = &shell.edges[used.edge as usize];
+                let [low, high] = edge.curve.knots.domain();
+                for k in 0..=8 {
+                    let t = f64::from(k) / 8.0;
+                    let along = if used.forward { t } else { 1.0 - t };
+                    let (u, v) =
+                        face.surface.on_side(used.side, used.range[0] + t * (used.range[1] - used.range[0]));
+                    let gap = face
+                        .surface
+                        .jet(u, v)
+                        .position
+                        .distance(edge.curve.point(low + along * (high - low)));
+                    assert!(gap <= 1e-13 * size, "{name}: edge off its face by {gap:e}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn golden_cages_convert() {
+    for (name, document) in documents("pccm") {
+        let Some(method) = document["method"].as_str() else { continue };
+        let mesh = cage(&document["cage"], &serde_json::Value::Null);
+        let level = document["options"]["level"].as_u64().map(|level| level as u32);
+        let method = match (method, document["options"]["layer"].as_str()) {
+            ("bi5", _) => Method::Bi5,
+            (_, Some("first")) => Method::PccmFirst,
+            _ => Method::Pccm,
+        };
+        for packing in [Packing::Packed, Packing::Unpacked] {
+            let part = to_part(&mesh, &Options { method, level, packing, ..Options::default() }).unwrap();
+            check(&name, &mesh, &part);
+            let wanted = document["checks"]["max_distance_to_cc_limit"].as_f64();
+            if let Some(wanted) = wanted.filter(|_| document["options"]["tangent"] == "cc_limit") {
+                let ratio = part.report.max_deviation / wanted;
+                println!("    deviation / reference: {ratio:.4}");
+                assert!(ratio < 1.5, "{name}: {ratio}");
+            }
+            if packing == Packing::Unpacked {
+                let wanted = document["checks"]["smooth_edges"].as_u64();
+                assert!(wanted.is_none_or(|wanted| wanted == part.report.smooth_edges as u64), "{name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_torus_is_one_face_with_two_seams() {
+    let mesh = shapes::torus(6, 5);
+    let part = to_part(&mesh, &Options::default()).unwrap();
+    check("torus", &mesh, &part);
+    let report = &part.report;
+    assert_eq!((report.faces_written, report.edges, report.vertices, report.solids), (1, 2, 1, 1));
+    assert!(report.max_curvature_jump < 1e-9);
+}
+
+#[test]
+fn volume_and_place_are_right() {
+    // An affine map of the cage maps the part: the volume by the determinant.
+    let mut mesh = shapes::cube();
+    let cube = to_part(&mesh, &Options::default()).unwrap().report;
+    for p in &mut mesh.points {
+        *p = Vec3::new(2.0 * p.x + 100.0, 3.0 * p.y + 0.5 * p.x, p.z - 7.0);
+    }
+    let mapped = to_part(&mesh, &Options::default()).unwrap().report;
+    assert!((mapped.volume.unwrap() - 6.0 * cube.volume.unwrap()).abs() < 1e-12);
+    let centre = mapped.bounding_box[0].lerp(mapped.bounding_box[1], 0.5);
+    assert!(centre.distance(Vec3::new(100.0, 0.0, -7.0)) < 1e-12);
+}
+
+#[test]
+fn hollows_and_directions_are_told_apart() {
+    let join = |outer: &ControlMesh, inner: &ControlMesh, scale: f64, flip: bool| {
+        let mut mesh = outer.clone();
+        let offset = mesh.points.len() as u32;
+        mesh.points.extend(inner.points.iter().map(|&p| scale * p));
+        for face in inner.faces.iter() {
+            let mut corners: Vec<u32> = face.iter().map(|v| v + offset).collect();
+            if flip {
+                corners.reverse();
+            }
+            mesh.faces.push(&corners);
+        }
+        mesh
+    };
+    let cube = shapes::cube();
+    let volume = to_part(&cube, &Options::default()).unwrap().report.volume.unwrap();
+    for flip in [true, false] {
+        let part = to_part(&join(&cube, &cube, 0.25, flip), &Options::default()).unwrap();
+        assert_eq!((part.report.solids, part.report.shells), (1, 2));
+        assert!((part.report.volume.unwrap() - volume * (1.0 - 1.0 / 64.0)).abs() < 1e-12);
+        assert!(part.report.notes.iter().any(|note| note.code == "void"));
+        assert!(matches!(&part.bodies[0], Body::Solid { voids, .. } if voids.len() == 1));
+    }
+    let mut turned = cube.clone();
+    turned.faces = cube.faces.iter().map(|face| [face[3], face[2], face[1], face[0]]).collect();
+    let part = to_part(&turned, &Options::default()).unwrap();
+    assert!((part.report.volume.unwrap() - volume).abs() < 1e-12);
+    assert!(part.report.notes.iter().any(|note| note.code == "inside_out"));
+    check("turned", &turned, &part);
+    // Beside each other, not inside: two solids.
+    let mut two = join(&cube, &cube, 0.25, false);
+    for p in &mut two.points[8..] {
+        p.x += 5.0;
+    }
+    assert_eq!(to_part(&two, &Options::default()).unwrap().report.solids, 2);
+}
