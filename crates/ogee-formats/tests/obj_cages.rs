@@ -1,5 +1,7 @@
 //! Every habit of OBJ files is read, and every mistake in one is told with its line.
 
+#![expect(clippy::unwrap_used, reason = "a test that cannot unwrap has failed")]
+
 use ogee::{Boundary, Creasing, FaceVaryingRule, Place, Sharpness, Vec3};
 use ogee_formats::{CageFile, CageFormat, Fault, ReadError, read_cage};
 
@@ -83,7 +85,7 @@ fn faces_may_come_before_their_vertices() {
 fn all_forms_of_corners() {
     let texture = "vt 0 0\nvt 1 0 0\nvt 0.5\nvn 0 0 1\n";
     let points = "v 0 0 0\nv 1 0 0 1.0\nv 0 1 0 0.2 0.4 0.6\n";
-    for face in ["f 1/3 2/2 3/1", "f 1/3/1 2/2/1 3/1/1", "f -3/-1 -2/-2 -1/-3"] {
+    for face in ["f 1/3 2/2/ 3/1", "f 1/3/1 2/2/1 3/1/1", "f -3/-1 -2/-2 -1/-3"] {
         let uv = read(&format!("{points}{texture}{face}\n")).mesh.uv.unwrap();
         assert_eq!(uv.indices, [2, 1, 0], "{face}");
         assert_eq!(uv.values, [[0.0, 0.0], [1.0, 0.0], [0.5, 0.0]]);
@@ -275,7 +277,6 @@ fn bad_faces_are_faults() {
         ),
         ("f 1 2 99999999999", "missing_vertex", "face 1 uses vertex 99999999998, a cage has fewer than 2^32"),
         ("f 1 2 x", "bad_number", "face 1 has a corner `x`, not v, v/vt, v//vn or v/vt/vn"),
-        ("f 1 2 3/", "", ""),
         ("f 1 2 3/1/1/1", "bad_number", "face 1 has a corner `3/1/1/1`, not v, v/vt, v//vn or v/vt/vn"),
         ("f 1 2 3/a", "bad_number", "face 1 has a corner `3/a`, not v, v/vt, v//vn or v/vt/vn"),
         ("f 1 2 3//a", "bad_number", "face 1 has a corner `3//a`, not v, v/vt, v//vn or v/vt/vn"),
@@ -286,10 +287,6 @@ fn bad_faces_are_faults() {
             "face 1 uses texture coordinate number 0 of the file, which counts from 1",
         ),
     ] {
-        if code.is_empty() {
-            assert_eq!(read(&format!("{TRIANGLE}{line}")).mesh.faces.len(), 2, "an empty part is none");
-            continue;
-        }
         let fault = fault_after_triangle(line);
         assert_eq!((fault.code, fault.line, &fault.message[..]), (code, Some(5), message));
         assert_eq!(fault.place, Some(Place::Face(1)));

@@ -25,10 +25,13 @@ pub fn read(bytes: &[u8]) -> Result<CageFile, ReadError> {
         cage.warn(None, "unknown_key", format!("unknown key \"{key}\", passed over"));
     }
     refuse_other_rules(&mut cage, &raw);
-    for key in [("vertices", raw.vertices.is_none()), ("faces", raw.faces.is_none())] {
-        if let (name, true) = key {
-            cage.faults.push(Fault::new("missing_key", format!("the cage has no key \"{name}\"")));
-        }
+    let missing = [("vertices", raw.vertices.is_none()), ("faces", raw.faces.is_none())];
+    for (key, _) in missing.iter().filter(|(_, is_missing)| *is_missing) {
+        cage.faults.push(Fault::new("missing_key", format!("the cage has no key \"{key}\"")));
+    }
+    if missing.iter().any(|&(_, is_missing)| is_missing) {
+        // Without its vertices every face is faulty, which says nothing new.
+        return cage.finish();
     }
     vertices_and_faces(&mut cage, &raw);
     tags(&mut cage, &raw);
