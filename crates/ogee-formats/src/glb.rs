@@ -27,6 +27,10 @@ pub(crate) fn write_view(view: &MeshView<'_>, placement: Placement, out: &mut im
     if view.points.iter().any(|&p| !single(p).iter().all(|x| x.is_finite())) {
         return Err(refuse("GLB holds single precision, and a vertex is too far away for it"));
     }
+    let unit = placement.unit_in_metres;
+    if !unit.is_finite() || unit <= 0.0 {
+        return Err(refuse("the unit of the mesh is no positive length"));
+    }
     let mut text = description(view, placement, triangle_count);
     while !text.len().is_multiple_of(4) {
         text.push(' ');

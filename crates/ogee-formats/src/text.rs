@@ -23,7 +23,8 @@ pub(crate) fn check_is_text(bytes: &[u8], format: &str) -> Result<(), ReadError>
     // Ctrl-Z ends text files of old systems.
     let is_control = |&b: &u8| b < 0x20 && !matches!(b, b'\t' | b'\n' | b'\r' | 0x0b | 0x0c | 0x1a);
     let near = &bytes[..bytes.len().min(LOOKED_AT)];
-    match near.iter().position(is_control).or_else(|| bytes.iter().position(|&b| b == 0)) {
+    let far_zero = || if bytes.contains(&0) { bytes.iter().position(|&b| b == 0) } else { None };
+    match near.iter().position(is_control).or_else(far_zero) {
         Some(at) => refuse(&format!("byte {at} is {:#04x}", bytes[at])),
         None => Ok(()),
     }

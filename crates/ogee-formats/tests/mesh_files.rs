@@ -200,6 +200,10 @@ fn what_does_not_fit_together_is_refused() {
     }
     let far = MeshView { points: &[Vec3::new(1e39, 0.0, 0.0); 4], ..square() };
     assert!(write_mesh(&far, MeshFormat::Glb, Placement::default(), Vec::new()).is_err());
+    for unit_in_metres in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let placement = Placement { unit_in_metres, z_up: true };
+        assert!(write_mesh(&square(), MeshFormat::Glb, placement, Vec::new()).is_err());
+    }
     let none = MeshView { faces: Faces::Quads(&[]), uv: None, ..square() };
     assert!(write_mesh(&none, MeshFormat::Glb, Placement::default(), Vec::new()).is_err());
 }

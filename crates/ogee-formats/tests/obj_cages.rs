@@ -320,3 +320,17 @@ fn what_is_no_cage_is_told_in_one_line() {
     let error = read_cage(&garbage, CageFormat::Obj).unwrap_err();
     assert_eq!((error.faults.len(), error.faults[0].code), (1, "not_text"));
 }
+
+#[test]
+fn spot_is_read_whole() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/models/spot/spot_control_mesh.obj");
+    let Ok(bytes) = std::fs::read(path) else {
+        println!("skipped: no Spot");
+        return;
+    };
+    let file = read_cage(&bytes, CageFormat::Obj).unwrap();
+    let faces_of = |corners: usize| file.mesh.faces.iter().filter(|face| face.len() == corners).count();
+    assert_eq!((file.mesh.points.len(), file.mesh.faces.len()), (188, 180));
+    assert_eq!([3, 4, 5].map(faces_of), [4, 160, 16]);
+    assert!(ogee::Topology::new(&file.mesh).is_ok());
+}

@@ -1,6 +1,6 @@
 //! Writing the cage in JSON. What [`super::read`] reads back is the same cage, bit for bit.
 
-use std::fmt::Display;
+use std::fmt::{self, Display};
 use std::io::{self, BufWriter, Write};
 
 use ogee::{ControlMesh, FaceVaryingRule, Sharpness};
@@ -27,9 +27,9 @@ pub fn write_cage(mesh: &ControlMesh, out: impl Write) -> io::Result<()> {
     }
     let mut out = BufWriter::new(out);
     write!(out, "{{\n\"vertices\": ")?;
-    list(&mut out, mesh.points.iter().map(|p| numbers([p.x, p.y, p.z])))?;
+    list(&mut out, mesh.points.iter().map(|p| Numbers([p.x, p.y, p.z])))?;
     write!(out, ",\n\"faces\": ")?;
-    list(&mut out, mesh.faces.iter().map(indices))?;
+    list(&mut out, mesh.faces.iter().map(Indices))?;
     write!(out, ",\n\"creases\": ")?;
     list(
         &mut out,
@@ -49,7 +49,7 @@ pub fn write_cage(mesh: &ControlMesh, out: impl Write) -> io::Result<()> {
     let boundary = name(&BOUNDARIES, &mesh.scheme.boundary);
     let creasing = name(&CREASINGS, &mesh.scheme.creasing);
     write!(out, ",\n\"boundary\": \"{boundary}\",\n\"creasing\": \"{creasing}\",\n\"holes\": ")?;
-    write!(out, "{}", indices(&mesh.holes))?;
+    write!(out, "{}", Indices(&mesh.holes))?;
     if let Some(uv) = &mesh.uv {
         let faces = mesh.faces.starts().windows(2).map(|ends| {
             let range = ends[0] as usize..ends[1] as usize;
@@ -64,9 +64,9 @@ pub fn write_cage(mesh: &ControlMesh, out: impl Write) -> io::Result<()> {
 /// Writes a mesh with its texture coordinates; a cage has no normals.
 pub(crate) fn write_view(view: &MeshView<'_>, out: &mut impl Write) -> io::Result<()> {
     write!(out, "{{\n\"vertices\": ")?;
-    list(out, view.points.iter().map(|p| numbers([p.x, p.y, p.z])))?;
+    list(out, view.points.iter().map(|p| Numbers([p.x, p.y, p.z])))?;
     write!(out, ",\n\"faces\": ")?;
-    list(out, view.faces.iter().map(indices))?;
+    list(out, view.faces.iter().map(Indices))?;
     if let Some((values, texture)) = view.uv {
         let mut rest = texture;
         let faces = view.faces.iter().map(move |face| {
@@ -86,9 +86,9 @@ fn write_texture<'a>(
     rule: FaceVaryingRule,
 ) -> io::Result<()> {
     write!(out, ",\n\"uvs\": ")?;
-    list(out, values.iter().map(|&value| numbers(value)))?;
+    list(out, values.iter().map(|&value| Numbers(value)))?;
     write!(out, ",\n\"face_uvs\": ")?;
-    list(out, faces.map(indices))?;
+    list(out, faces.map(Indices))?;
     write!(out, ",\n\"face_varying\": \"{}\"", name(&FACE_VARYING_RULES, &rule))
 }
 
@@ -103,13 +103,30 @@ fn list(out: &mut impl Write, items: impl Iterator<Item = impl Display>) -> io::
     write!(out, "{}]", if is_first { "" } else { "\n" })
 }
 
-fn numbers<const N: usize>(values: [f64; N]) -> String {
-    format!("[{}]", values.map(|x| Shortest(x).to_string()).join(","))
+/// Displays a list of numbers.
+struct Numbers<const N: usize>([f64; N]);
+
+impl<const N: usize> Display for Numbers<N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, &x) in self.0.iter().enumerate() {
+            write!(f, "{}{}", if i == 0 { '[' } else { ',' }, Shortest(x))?;
+        }
+        f.write_str("]")
+    }
 }
 
-fn indices(list: &[u32]) -> String {
-    let texts: Vec<String> = list.iter().map(u32::to_string).collect();
-    format!("[{}]", texts.join(","))
+/// Displays a list of indices.
+struct Indices<'a>(&'a [u32]);
+
+impl Display for Indices<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("[")?;
+        for (i, index) in self.0.iter().enumerate() {
+            f.write_str(if i == 0 { "" } else { "," })?;
+            Display::fmt(index, f)?;
+        }
+        f.write_str("]")
+    }
 }
 
 fn sharpness_value(sharpness: Sharpness) -> String {
