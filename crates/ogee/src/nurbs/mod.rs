@@ -1,6 +1,7 @@
 //! Polynomial B-spline curves and surfaces of any degree, and the shells and parts made of them.
 
 mod curve;
+mod insertion;
 mod knots;
 mod shell;
 mod surface;
