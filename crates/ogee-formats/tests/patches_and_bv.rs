@@ -1,5 +1,7 @@
 //! Patches in JSON and BezierView files.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod common;
 
 use common::*;

@@ -1,7 +1,7 @@
 //! `Emitter`: lines of a STEP file, numbered in the order of writing, with every point written once.
 
 use std::collections::HashMap;
-use std::fmt::{Arguments, Write as _};
+use std::fmt::Arguments;
 use std::hash::{BuildHasherDefault, Hasher};
 use std::io::{self, Write};
 
@@ -15,21 +15,22 @@ const BUFFER: usize = 1 << 16;
 /// Writes entities and numbers them.
 pub(super) struct Emitter<'a, W: Write> {
     out: &'a mut W,
-    text: String,
+    text: Vec<u8>,
     last: u64,
     points: HashMap<[u64; 3], Id, BuildHasherDefault<PointHasher>>,
 }
 
 impl<'a, W: Write> Emitter<'a, W> {
-    pub(super) fn new(out: &'a mut W) -> Self {
-        Emitter { out, text: String::with_capacity(2 * BUFFER), last: 0, points: HashMap::default() }
+    /// An emitter with room for so many points.
+    pub(super) fn new(out: &'a mut W, points: usize) -> Self {
+        let points = HashMap::with_capacity_and_hasher(points, BuildHasherDefault::default());
+        Emitter { out, text: Vec::with_capacity(2 * BUFFER), last: 0, points }
     }
 
     /// A line without a number.
     pub(super) fn line(&mut self, line: Arguments<'_>) -> io::Result<()> {
-        // Writing to a String fails only if a Display does, and none of ours does.
-        let _ = self.text.write_fmt(line);
-        self.text.push('\n');
+        self.text.write_fmt(line)?;
+        self.text.push(b'\n');
         self.hand_on(BUFFER)
     }
 
@@ -51,13 +52,13 @@ impl<'a, W: Write> Emitter<'a, W> {
         self.last += 1;
         let id = Id(self.last);
         self.points.insert(key, id);
-        let _ = write!(self.text, "{id}=CARTESIAN_POINT('',(");
+        write!(self.text, "{id}=CARTESIAN_POINT('',(")?;
         push_real(&mut self.text, point.x);
-        self.text.push(',');
+        self.text.push(b',');
         push_real(&mut self.text, point.y);
-        self.text.push(',');
+        self.text.push(b',');
         push_real(&mut self.text, point.z);
-        self.text.push_str("));\n");
+        self.text.extend_from_slice(b"));\n");
         self.hand_on(BUFFER)?;
         Ok(id)
     }
@@ -70,7 +71,7 @@ impl<'a, W: Write> Emitter<'a, W> {
 
     fn hand_on(&mut self, limit: usize) -> io::Result<()> {
         if self.text.len() > limit {
-            self.out.write_all(self.text.as_bytes())?;
+            self.out.write_all(&self.text)?;
             self.text.clear();
         }
         Ok(())

@@ -7,12 +7,15 @@
 //! | `emitter` | numbered lines, points shared |
 //! | `context` | header, product, units: what stands around a shape |
 //! | `write` | shells, solids, sheets |
+//! | `check` | the lint |
 
+mod check;
 mod context;
 mod emitter;
 mod options;
 mod syntax;
 mod write;
 
+pub use check::{CheckReport, Counts, Fault, check};
 pub use options::{Options, Schema, Unit};
 pub use write::write;

@@ -28,7 +28,8 @@ use crate::finite::require_finite;
 /// If a face or an edge of the part names an edge or a vertex that its shell lacks.
 pub fn write(part: &Part, options: &Options, out: &mut impl Write) -> io::Result<()> {
     require_finite(part)?;
-    let mut file = Emitter::new(out);
+    let faces = part.bodies.iter().flat_map(|body| body.shells()).flat_map(|shell| &shell.faces);
+    let mut file = Emitter::new(out, faces.map(|face| face.surface.net.cells().len()).sum());
     context::header(&mut file, options)?;
     let definition = context::product(&mut file, options)?;
     let units = context::units(&mut file, options.unit)?;

@@ -1,6 +1,6 @@
 //! Parts for tests, sewn from surfaces whose boundary rows agree bit for bit.
 
-#![allow(dead_code)]
+#![allow(dead_code, reason = "each test takes the parts it wants")]
 
 use ogee::convert::{Body, Part, Report};
 use ogee::nurbs::{
@@ -62,7 +62,7 @@ pub(crate) fn sew(cloths: Vec<Cloth>) -> Shell {
                 }
                 let share = (domain[1] - domain[0]) / pieces.len() as f64;
                 let range = [domain[0] + share * k as f64, domain[0] + share * (k + 1) as f64];
-                let (edge, along) = shell_edge(&mut shell, piece, backward);
+                let (edge, along) = shell_edge(&mut shell, piece);
                 uses.push(EdgeUse {
                     edge,
                     forward: along != backward,
@@ -85,9 +85,8 @@ pub(crate) fn sew(cloths: Vec<Cloth>) -> Shell {
     shell
 }
 
-/// The edge with this curve, and whether the curve runs along it. An edge that is used in the wanted direction
-/// already is another one.
-fn shell_edge(shell: &mut Shell, curve: &NurbsCurve, backward: bool) -> (u32, bool) {
+/// The edge with this curve, and whether the curve runs along it.
+fn shell_edge(shell: &mut Shell, curve: &NurbsCurve) -> (u32, bool) {
     let reversed: Vec<Vec3> = curve.points.iter().rev().copied().collect();
     for (i, edge) in shell.edges.iter().enumerate() {
         if edge.curve.points == curve.points || edge.curve.points == reversed {
@@ -102,7 +101,6 @@ fn shell_edge(shell: &mut Shell, curve: &NurbsCurve, backward: bool) -> (u32, bo
             shell.vertices.len() as u32 - 1
         }
     };
-    let _ = backward;
     let (start, end) = (vertex(curve.points[0]), vertex(curve.points[curve.points.len() - 1]));
     shell.edges.push(ShellEdge { start, end, curve: curve.clone(), smooth: false });
     (shell.edges.len() as u32 - 1, true)
