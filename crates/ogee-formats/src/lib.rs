@@ -4,15 +4,19 @@
 //! what name a result appears, is the caller's business.
 
 mod builder;
+pub mod bv;
 mod cage;
 mod error;
+mod finite;
 mod glb;
 pub mod json;
 mod mesh;
 mod number;
 pub mod obj;
 pub mod off;
+pub mod patches;
 pub mod ply;
+pub mod step;
 mod stl;
 mod text;
 mod triangles;

@@ -2,6 +2,7 @@
 
 pub(crate) mod basis;
 pub(crate) mod curve;
+mod insertion;
 mod knots;
 mod quadrature;
 mod shell;
