@@ -4,6 +4,8 @@
 //! A *ring* is a closed list of vertex ids. Seen from where the surface is going next it runs
 //! counter-clockwise, so that faces come out facing outward.
 
+use std::collections::HashSet;
+
 use ogee::{ControlMesh, Corner, Crease, FaceList, Sharpness, Vec3};
 
 /// Sharpness that never fades.
@@ -61,11 +63,29 @@ impl Builder {
         }
     }
 
+    /// Quads between rows of equal length; seen from outside a row runs to the right, the next lies above it.
+    pub(super) fn sheet(&mut self, rows: &[Vec<u32>]) {
+        for pair in rows.windows(2) {
+            for i in 1..pair[0].len() {
+                self.face(&[pair[0][i - 1], pair[0][i], pair[1][i], pair[1][i - 1]]);
+            }
+        }
+    }
+
     /// Quads through a row of rings.
     pub(super) fn loft(&mut self, rings: &[Vec<u32>]) {
         for pair in rings.windows(2) {
             self.bridge(&pair[0], &pair[1]);
         }
+    }
+
+    /// A turned solid: quads through all rings, the first and the last closed by grids so many quads wide.
+    /// Returns the new vertices of the last one.
+    pub(super) fn turn(&mut self, rings: &[Vec<u32>], columns: usize) -> Vec<u32> {
+        self.loft(rings);
+        let first: Vec<u32> = rings[0].iter().rev().copied().collect();
+        self.cap_grid(&first, columns);
+        self.cap_grid(&rings[rings.len() - 1], columns)
     }
 
     /// Closes a ring by a grid of quads, `columns` wide from its first vertex on, spread evenly between the
@@ -154,6 +174,62 @@ impl Builder {
         self.bridge(&ring, &moved);
         self.face(&moved);
         moved
+    }
+
+    /// Gives a surface with boundary a thickness: a second layer, moved from the first by `offset` of position
+    /// and unit normal and facing the other way, and quads along the boundary. Returns where the second layer's
+    /// vertices begin: vertex `v` of the first has number `v` more there.
+    pub(super) fn thicken(&mut self, offset: impl Fn(Vec3, Vec3) -> Vec3) -> u32 {
+        let layer = self.points.len() as u32;
+        let mut normals = vec![Vec3::ZERO; self.points.len()];
+        for face in &self.faces {
+            for k in 0..face.len() {
+                let [a, b, c] = [0, 1, 2].map(|i| self.at(face[(k + i) % face.len()]));
+                normals[face[(k + 1) % face.len()] as usize] += (b - a).cross(c - b);
+            }
+        }
+        for (v, normal) in normals.into_iter().enumerate() {
+            let p = self.points[v];
+            self.points.push(p + offset(p, normal.normalized().unwrap_or(Vec3::ZERO)));
+        }
+        let sides = |face: &Vec<u32>| -> Vec<(u32, u32)> {
+            (0..face.len()).map(|k| (face[k], face[(k + 1) % face.len()])).collect()
+        };
+        let known: HashSet<(u32, u32)> = self.faces.iter().flat_map(sides).collect();
+        for face in self.faces.clone() {
+            self.faces.push(face.iter().rev().map(|v| v + layer).collect());
+            for (a, b) in sides(&face).into_iter().filter(|&(a, b)| !known.contains(&(b, a))) {
+                self.face(&[b, a, a + layer, b + layer]);
+            }
+        }
+        layer
+    }
+
+    /// Adds the image of everything at the plane `x = 0`. Vertices that were put exactly on the plane are their
+    /// own images; returns the image of every vertex.
+    pub(super) fn mirror(&mut self) -> Vec<u32> {
+        let image: Vec<u32> = (0..self.points.len() as u32)
+            .map(|v| match self.at(v) {
+                p if p.x == 0.0 => v,
+                p => self.point(Vec3::new(-p.x, p.y, p.z)),
+            })
+            .collect();
+        for face in self.faces.clone() {
+            self.faces.push(face.iter().rev().map(|&v| image[v as usize]).collect());
+        }
+        for crease in self.creases.clone() {
+            let vertices = crease.vertices.map(|v| image[v as usize]);
+            if vertices != crease.vertices {
+                self.creases.push(Crease { vertices, sharpness: crease.sharpness });
+            }
+        }
+        for corner in self.corners.clone() {
+            let vertex = image[corner.vertex as usize];
+            if vertex != corner.vertex {
+                self.corners.push(Corner { vertex, sharpness: corner.sharpness });
+            }
+        }
+        image
     }
 
     /// Tags the edges of a chain of vertices.

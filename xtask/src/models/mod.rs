@@ -1,13 +1,23 @@
 //! The shipped cages: each is a short program, so that its dimensions have names and its file can be made
 //! again. All lengths are millimetres, z is up.
 
+mod ball;
+mod bauble;
+mod bottle;
+mod bracket;
 mod brick;
 mod builder;
+mod chair;
+mod hull;
+mod knob;
 mod knot;
 mod mug;
 mod profile;
+mod stars;
+mod sweep;
 #[cfg(test)]
 mod tests;
+mod vase;
 mod write;
 
 use std::path::{Path, PathBuf};
@@ -35,7 +45,20 @@ enum Form {
 
 /// All models, by name.
 fn all() -> Vec<Model> {
-    vec![brick::model(), knot::model(), mug::model()]
+    vec![
+        ball::model(),
+        bauble::model(),
+        bottle::model(),
+        brick::model(),
+        bracket::model(),
+        chair::model(),
+        hull::model(),
+        stars::model(),
+        knob::model(),
+        knot::model(),
+        mug::model(),
+        vase::model(),
+    ]
 }
 
 /// Where the shipped cages live.

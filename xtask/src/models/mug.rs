@@ -4,6 +4,7 @@ use ogee::Vec3;
 
 use super::builder::Builder;
 use super::profile::circle;
+use super::sweep::tube;
 use super::{Form, Model};
 
 const AROUND: usize = 16;
@@ -35,21 +36,22 @@ const PROFILE: [[f64; 2]; 22] = [
 /// The rings below the lower and the upper end of the handle.
 const LOWER: usize = 6;
 const UPPER: usize = 9;
-/// The middle of the handle, x and z, from its upper end to its lower end.
-const HANDLE: [[f64; 2]; 7] =
-    [[48.5, 73.6], [58.0, 74.0], [68.0, 69.5], [72.5, 57.0], [69.0, 43.0], [59.5, 33.0], [49.0, 30.6]];
-/// Half the width and half the thickness of each piece of the handle.
-const SECTION: [[f64; 2]; 7] =
-    [[8.2, 6.6], [8.0, 5.8], [8.4, 5.4], [8.8, 5.4], [8.4, 5.4], [7.8, 5.8], [7.8, 6.6]];
+/// The handle from its upper to its lower end: x and z, half its width, half its thickness.
+const HANDLE: [[f64; 4]; 7] = [
+    [48.5, 73.6, 8.2, 6.6],
+    [58.0, 74.0, 8.0, 5.8],
+    [68.0, 69.5, 8.4, 5.4],
+    [72.5, 57.0, 8.8, 5.4],
+    [69.0, 43.0, 8.4, 5.4],
+    [59.5, 33.0, 7.8, 5.8],
+    [49.0, 30.6, 7.8, 6.6],
+];
 
 pub(super) fn model() -> Model {
     let mut b = Builder::default();
     // Half a step, so that the handle grows from the middle of a face.
     let rings: Vec<Vec<u32>> = PROFILE.iter().map(|&[r, z]| b.points(circle(AROUND, -0.5, r, z))).collect();
-    b.loft(&rings);
-    let under: Vec<u32> = rings[0].iter().rev().copied().collect();
-    b.cap_grid(&under, AROUND / 4);
-    b.cap_grid(&rings[PROFILE.len() - 1], AROUND / 4);
+    b.turn(&rings, AROUND / 4);
     handle(&mut b, &rings);
     b.crease_ring(&rings[2], 1.0);
     b.crease_ring(&rings[3], 1.0);
@@ -72,21 +74,6 @@ fn handle(b: &mut Builder, rings: &[Vec<u32>]) {
     b.take_face(&end);
     // The handle turns over on its way down: what was below is above.
     end.reverse();
-    let mut tube = vec![start.to_vec()];
-    for (k, (&[x, z], &[wide, thick])) in HANDLE.iter().zip(&SECTION).enumerate() {
-        let before = if k == 0 { [41.5, 73.0] } else { HANDLE[k - 1] };
-        let after = HANDLE.get(k + 1).copied().unwrap_or([41.5, 31.0]);
-        let ahead = Vec3::new(after[0] - before[0], 0.0, after[1] - before[1]);
-        let ahead = ahead.normalized().unwrap_or(Vec3::ZERO);
-        let inner = Vec3::new(ahead.z, 0.0, -ahead.x) * thick;
-        let (middle, right) = (Vec3::new(x, 0.0, z), Vec3::new(0.0, wide, 0.0));
-        tube.push(b.points([
-            middle + inner - right,
-            middle + inner + right,
-            middle - inner + right,
-            middle - inner - right,
-        ]));
-    }
-    tube.push(end.to_vec());
-    b.loft(&tube);
+    let stations = HANDLE.map(|[x, z, wide, thick]| (Vec3::new(x, 0.0, z), wide, thick));
+    tube(b, &start, &stations, &end, Vec3::new(0.0, 1.0, 0.0));
 }
