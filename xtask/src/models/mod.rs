@@ -7,7 +7,9 @@ mod bottle;
 mod bracket;
 mod brick;
 mod builder;
+mod car;
 mod chair;
+mod hand;
 mod hull;
 mod knob;
 mod knot;
@@ -51,7 +53,9 @@ fn all() -> Vec<Model> {
         bottle::model(),
         brick::model(),
         bracket::model(),
+        car::model(),
         chair::model(),
+        hand::model(),
         hull::model(),
         stars::model(),
         knob::model(),
