@@ -45,6 +45,12 @@ pub(super) fn model() -> Model {
     let outline = outline(&rows);
     b.crease_ring(&outline, 2.0);
     b.crease_ring(&shift(&outline), 2.0);
+    // Where two edges of the outline meet there is one face between them: the third edge is as sharp.
+    for row in [&rows[0], &rows[ALONG.len() - 1]] {
+        for v in [row[0], row[ACROSS.len() - 1]] {
+            b.crease_path(&[v, v + layer], 2.0);
+        }
+    }
     Model {
         name: "bracket",
         about: &[

@@ -32,12 +32,14 @@ pub(super) fn model() -> Model {
     for k in [0, nx, nx + ny, 2 * nx + ny] {
         let upright: Vec<u32> = rings.iter().map(|ring| ring[k]).collect();
         b.crease_path(&upright, SHARP);
+        b.corner(upright[0], SHARP);
+        b.corner(upright[nz], SHARP);
     }
     Model {
         name: "box",
         about: &[
             "A block, 60 x 40 x 30: six grids of quads between twelve creased edges.",
-            "Exercises creases that meet in corners, and packing: the surface is the block itself, six faces.",
+            "Exercises creases that meet in tagged corners, and packing: the surface is the block itself, six faces.",
         ],
         form: Form::Closed { pieces: 1, genus: 0 },
         mesh: b.finish(),

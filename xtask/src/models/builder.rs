@@ -128,15 +128,6 @@ impl Builder {
         made
     }
 
-    /// Closes a ring of even length by quads around one vertex, which gets half its valence from it.
-    pub(super) fn cap_pole(&mut self, ring: &[u32], pole: Vec3) -> u32 {
-        let centre = self.point(pole);
-        for i in (0..ring.len()).step_by(2) {
-            self.face(&[centre, ring[i], ring[i + 1], ring[(i + 2) % ring.len()]]);
-        }
-        centre
-    }
-
     /// Takes out the face with these corners and returns its ring as the face ran.
     pub(super) fn take_face(&mut self, corners: &[u32]) -> Vec<u32> {
         let is_it = |face: &Vec<u32>| face.len() == corners.len() && corners.iter().all(|v| face.contains(v));
@@ -164,16 +155,6 @@ impl Builder {
         }
         ring.pop();
         ring
-    }
-
-    /// Replaces a face by one moved by `f` and quads around it; returns the ring of the new face.
-    pub(super) fn extrude(&mut self, corners: &[u32], f: impl Fn(Vec3) -> Vec3) -> Vec<u32> {
-        let ring = self.take_face(corners);
-        let moved: Vec<Vec3> = ring.iter().map(|&v| f(self.at(v))).collect();
-        let moved = self.points(moved);
-        self.bridge(&ring, &moved);
-        self.face(&moved);
-        moved
     }
 
     /// Gives a surface with boundary a thickness: a second layer, moved from the first by `offset` of position

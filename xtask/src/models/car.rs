@@ -82,6 +82,8 @@ const SILL: [[f64; 2]; 6] =
 const LIP: usize = 4;
 const WINDOW: usize = 8;
 const ROWS: usize = 10;
+/// The section at the foot of the windscreen.
+const COWL: usize = 8;
 const WHEEL: f64 = 325.0;
 
 pub(super) fn model() -> Model {
@@ -92,13 +94,14 @@ pub(super) fn model() -> Model {
             b.face(&[pair[0][j], pair[1][j], pair[1][j + 1], pair[0][j + 1]]);
         }
     }
-    end(&mut b, &sections[0], -60.0);
+    end(&mut b, &sections[0], -40.0);
     end(&mut b, &sections[SECTIONS.len() - 1], 45.0);
     let line = |row: usize, from: usize, to: usize| -> Vec<u32> {
         sections[from..=to].iter().map(|section| section[row]).collect()
     };
     b.crease_path(&line(LIP, 1, SECTIONS.len() - 2), 2.0);
     b.crease_path(&line(WINDOW, 7, 18), 2.0);
+    b.crease_path(&sections[COWL][WINDOW..], 1.0);
     for y in AXLES {
         wheel(&mut b, y);
     }
@@ -128,7 +131,7 @@ fn section(k: usize) -> Vec<Vec3> {
     let well = if open { lip } else { sill };
     let cabin = ramp(y, -900.0, -330.0) * (1.0 - ramp(y, 900.0, 1750.0));
     let mix = |a: f64, b: f64| a + (b - a) * cabin;
-    let window = belt + mix(0.5 * (top - belt), 38.0);
+    let window = belt + mix(0.5 * (top - belt), 30.0);
     let rail = belt + mix(0.9 * (top - belt), top - belt - 62.0);
     let narrow = width / 900.0;
     let part = |t: f64, x: f64| Vec3::new(x, lip_y + (y - lip_y) * t, lip + (belt - lip) * t);
@@ -141,7 +144,7 @@ fn section(k: usize) -> Vec<Vec3> {
         part(0.34, width),
         part(0.68, width - 8.0),
         Vec3::new(belt_width, y, belt),
-        Vec3::new(belt_width * mix(0.74, 0.93), y, window),
+        Vec3::new(belt_width * mix(0.74, 0.90), y, window),
         Vec3::new(mix(0.40 * belt_width, 540.0), y, rail),
         Vec3::new(0.0, y, top),
     ];
@@ -163,7 +166,7 @@ fn end(b: &mut Builder, section: &[u32], bulge: f64) {
         .iter()
         .map(|&v| {
             let p = b.at(v) - middle;
-            middle + Vec3::new(0.86 * p.x, p.y + bulge, 0.74 * p.z)
+            middle + Vec3::new(0.86 * p.x, p.y + bulge, 0.78 * p.z)
         })
         .collect();
     let inset = b.points(inset);

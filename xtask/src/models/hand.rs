@@ -26,8 +26,8 @@ const FINGERS: [[f64; 4]; 4] = [
     [87.0, 1.0, 0.015, 0.20],
     [78.0, 0.98, 0.10, 0.16],
 ];
-/// Pieces of a finger: where it ends, as a part of the length; half its width and thickness there; its part
-/// of the curl.
+/// Pieces of a finger: where each ends, as a part of the length; half its width and thickness there; its part
+/// of the bending.
 const FINGER: [[f64; 4]; 8] = [
     [0.12, 9.6, 10.0, 0.1],
     [0.30, 9.4, 9.6, 0.1],
@@ -40,12 +40,12 @@ const FINGER: [[f64; 4]; 8] = [
 ];
 /// Pieces of the thumb, likewise.
 const THUMB: [[f64; 4]; 8] = [
-    [0.16, 15.5, 14.0, 0.0],
-    [0.34, 12.8, 12.4, 0.05],
-    [0.52, 10.8, 10.8, 0.2],
-    [0.64, 11.0, 10.4, 0.3],
-    [0.76, 11.0, 9.6, 0.3],
-    [0.88, 10.6, 8.8, 0.1],
+    [0.13, 14.0, 14.5, 0.25],
+    [0.32, 12.0, 12.8, 0.45],
+    [0.50, 10.6, 10.8, 0.15],
+    [0.64, 11.0, 10.4, 0.1],
+    [0.76, 11.0, 9.6, 0.05],
+    [0.88, 10.6, 8.8, 0.0],
     [0.965, 8.4, 6.6, 0.05],
     [1.0, 4.2, 3.2, 0.0],
 ];
@@ -62,13 +62,20 @@ pub(super) fn model() -> Model {
     for (i, &[length, scale, lean, curl]) in FINGERS.iter().enumerate() {
         let start = [top[i], top[i + 1], top[8 - i], top[9 - i]];
         let ahead = Vec3::new(lean, -0.06, 1.0);
-        limb(&mut b, &start, ahead, Vec3::new(1.0, 0.0, -lean), &FINGER, [length, scale, curl]);
+        limb(&mut b, &start, ahead, Vec3::new(1.0, 0.0, -lean), &FINGER, [length, scale, curl, 0.0]);
     }
     let (low, high) = (&rings[4], &rings[5]);
     let start = b.take_face(&[low[4], low[5], high[5], high[4]]);
     let first = start.iter().position(|&v| v == high[4]).unwrap_or(0);
     let start: Vec<u32> = (0..4).map(|k| start[(first + k) % 4]).collect();
-    limb(&mut b, &start, Vec3::new(0.80, -0.38, 0.62), Vec3::new(0.5, -0.2, -0.8), &THUMB, [84.0, 1.0, 0.3]);
+    limb(
+        &mut b,
+        &start,
+        Vec3::new(0.95, -0.36, 0.16),
+        Vec3::new(0.16, 0.0, -0.95),
+        &THUMB,
+        [86.0, 1.0, 0.25, 0.75],
+    );
     Model {
         name: "hand",
         about: &[
@@ -88,18 +95,20 @@ fn palm_ring(k: usize) -> Vec<Vec3> {
         let t = i as f64 / 4.0;
         let middle = 1.0 - (2.0 * t - 1.0).powi(2);
         let half = thick * (0.66 + 0.34 * middle);
-        let y = if front { -half + hollow * middle } else { half + 0.25 * hollow * middle };
+        // The ball of the thumb, and the heel of the hand across from it.
+        let mound = [4.0, 1.0, 0.0, 4.0, 5.0][i] * (1.0 - (z - 40.0).abs() / 40.0).max(0.0);
+        let y = if front { hollow * middle - half - mound } else { half + 0.25 * hollow * middle };
         Vec3::new(left + (right - left) * t, y, z + if last { KNUCKLES[i] } else { 0.0 })
     };
     (0..5).map(|i| point(i, true)).chain((0..5).rev().map(|i| point(i, false))).collect()
 }
 
 /// A limb from a ring of four (front left, front right, back right, back left, seen with its tip up), curling
-/// towards the front as it goes.
-fn limb(b: &mut Builder, start: &[u32], ahead: Vec3, right: Vec3, pieces: &[[f64; 4]], size: [f64; 3]) {
-    let [length, scale, curl] = size;
+/// towards the front and turning to the left as it goes. `size` is its length, a scale, and both angles.
+fn limb(b: &mut Builder, start: &[u32], ahead: Vec3, right: Vec3, pieces: &[[f64; 4]], size: [f64; 4]) {
+    let [length, scale, curl, lift] = size;
     let mut ahead = ahead.normalized().unwrap_or(Vec3::ZERO);
-    let right = (right - ahead * right.dot(ahead)).normalized().unwrap_or(Vec3::ZERO);
+    let mut right = (right - ahead * right.dot(ahead)).normalized().unwrap_or(Vec3::ZERO);
     let mut middle = b.centre(start);
     let mut reached = 0.0;
     let mut rings = vec![start.to_vec()];
@@ -107,6 +116,8 @@ fn limb(b: &mut Builder, start: &[u32], ahead: Vec3, right: Vec3, pieces: &[[f64
         let front = right.cross(ahead);
         let turn: f64 = curl * part;
         ahead = ahead * turn.cos() + front * turn.sin();
+        let turn: f64 = lift * part;
+        (ahead, right) = (ahead * turn.cos() - right * turn.sin(), right * turn.cos() + ahead * turn.sin());
         middle = middle + ahead * ((end - reached) * length);
         reached = end;
         let front = right.cross(ahead) * (thick * scale);

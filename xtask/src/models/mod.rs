@@ -45,7 +45,7 @@ enum Form {
     Open,
 }
 
-/// All models, by name.
+/// All models, in the order of their names.
 fn all() -> Vec<Model> {
     vec![
         ball::model(),
@@ -57,10 +57,10 @@ fn all() -> Vec<Model> {
         chair::model(),
         hand::model(),
         hull::model(),
-        stars::model(),
         knob::model(),
         knot::model(),
         mug::model(),
+        stars::model(),
         vase::model(),
     ]
 }

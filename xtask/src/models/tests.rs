@@ -105,6 +105,33 @@ fn the_knot_is_regular() {
 }
 
 #[test]
+fn the_stars_have_every_valence() {
+    assert_eq!(valences(&named("stars")), (3..=12).collect());
+}
+
+#[test]
+fn extraordinary_vertices_of_the_hand_touch() {
+    let hand = named("hand");
+    assert_eq!(valences(&hand), (3..=6).collect());
+    let t = Topology::new(&hand.mesh).unwrap();
+    let is_six = |v: VertexId| t.valence(v) == Valence::Interior(6);
+    let touching = t.edge_halfedges().into_iter().filter(|&h| is_six(t.origin(h)) && is_six(t.target(h)));
+    // Three between fingers, four along their roots in front and behind.
+    assert_eq!(touching.count(), 7);
+}
+
+#[test]
+fn the_hollow_of_the_bauble_faces_inward() {
+    let mesh = named("bauble").mesh;
+    let piece = pieces(&mesh);
+    let volumes: Vec<f64> = BTreeSet::from_iter(piece.iter().copied())
+        .into_iter()
+        .map(|root| volume(&mesh, |v| piece[v as usize] == root))
+        .collect();
+    assert!(volumes.len() == 2 && volumes[0] > -volumes[1] && volumes[1] < 0.0, "{volumes:?}");
+}
+
+#[test]
 fn the_box_is_exact() {
     let mesh = named("box").mesh;
     assert_eq!(mesh.faces.len(), 108);
