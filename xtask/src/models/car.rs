@@ -148,13 +148,13 @@ fn section(k: usize) -> Vec<Vec3> {
         Vec3::new(mix(0.40 * belt_width, 540.0), y, rail),
         Vec3::new(0.0, y, top),
     ];
-    points.map(|p| rounded(p)).to_vec()
+    points.map(rounded).to_vec()
 }
 
 /// Sweeps front and rear back at the sides.
 fn rounded(p: Vec3) -> Vec3 {
     let side = (p.x / 900.0).powi(2);
-    let back = 330.0 * ramp(-p.y, 1500.0, 2110.0) - 210.0 * ramp(p.y, 1500.0, 2110.0);
+    let back = 330.0 * ramp(-p.y, 1730.0, 2160.0) - 210.0 * ramp(p.y, 1730.0, 2160.0);
     Vec3::new(p.x, p.y + side * back, p.z)
 }
 
@@ -170,7 +170,7 @@ fn end(b: &mut Builder, section: &[u32], bulge: f64) {
         })
         .collect();
     let inset = b.points(inset);
-    let mut quad = |b: &mut Builder, mut corners: [u32; 4]| {
+    let quad = |b: &mut Builder, mut corners: [u32; 4]| {
         if bulge > 0.0 {
             corners.reverse();
         }

@@ -118,7 +118,7 @@ fn limb(b: &mut Builder, start: &[u32], ahead: Vec3, right: Vec3, pieces: &[[f64
         ahead = ahead * turn.cos() + front * turn.sin();
         let turn: f64 = lift * part;
         (ahead, right) = (ahead * turn.cos() - right * turn.sin(), right * turn.cos() + ahead * turn.sin());
-        middle = middle + ahead * ((end - reached) * length);
+        middle += ahead * ((end - reached) * length);
         reached = end;
         let front = right.cross(ahead) * (thick * scale);
         let side = right * (wide * scale);

@@ -64,6 +64,6 @@ pub(super) fn model() -> Model {
 /// Above the collar the grip leans back, its top tilts towards the driver, and the palm side is fuller.
 fn shape(p: Vec3) -> Vec3 {
     let t = ((p.z - 18.0) / 66.0).clamp(0.0, 1.0);
-    let full = if p.y < 0.0 { 1.0 + 0.16 * t } else { 1.0 - 0.06 * t };
-    Vec3::new(p.x, p.y * full - 9.0 * t * t, p.z + 0.14 * t * t * p.y)
+    let y = p.y - 0.0045 * t * p.y * p.y;
+    Vec3::new(p.x, y - 9.0 * t * t, p.z + 0.14 * t * t * p.y)
 }

@@ -7,7 +7,7 @@ use super::profile::direction;
 use super::{Form, Model};
 
 /// For each star after the first, which arm holds the next, counted from the arm that holds the one before.
-const NEXT: [usize; 8] = [2, 2, 2, 3, 3, 3, 4, 4];
+const NEXT: [usize; 8] = [2, 2, 2, 3, 3, 4, 4, 4];
 /// Half the width of an arm at its root, its length from there, the gap in which two arms meet.
 const ARM: f64 = 5.0;
 const REACH: f64 = 17.0;
@@ -36,7 +36,7 @@ pub(super) fn model() -> Model {
         if arms < 12 {
             let next = if arms == 3 { 0 } else { NEXT[arms - 4] };
             heading = phase + next as f64 / arms as f64;
-            centre = centre + direction(heading) * (radius(arms) + radius(arms + 1) + GAP);
+            centre += direction(heading) * (radius(arms) + radius(arms + 1) + GAP);
             waiting = Some(ends[next].clone());
             joined[next] = true;
         }
