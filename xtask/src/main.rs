@@ -1,3 +1,22 @@
-//! The `ogee` command.
+//! Chores of the workspace. `models [DIR]` writes the shipped cages.
 
-fn main() {}
+mod models;
+
+use std::path::PathBuf;
+
+use anyhow::{Result, bail};
+
+#[expect(clippy::print_stdout, reason = "a chore tells what it did")]
+fn main() -> Result<()> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        ["models", ref rest @ ..] if rest.len() < 2 => {
+            let folder = rest.first().map_or_else(models::folder, PathBuf::from);
+            for line in models::write_all(&folder)? {
+                println!("{line}");
+            }
+            Ok(())
+        }
+        _ => bail!("usage: cargo run -p xtask -- models [DIR]"),
+    }
+}
