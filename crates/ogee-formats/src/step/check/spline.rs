@@ -110,10 +110,12 @@ impl Curve {
             }
             t = (t + (point - p).dot(d) / speed).clamp(from.min(to), from.max(to));
             let distance = self.at(t).distance(point);
-            if distance >= best.1 {
+            // A number that is none is no improvement.
+            if distance < best.1 {
+                best = (t, distance);
+            } else {
                 break;
             }
-            best = (t, distance);
         }
         best
     }
@@ -260,6 +262,17 @@ mod tests {
                 let exact = if power % 2 == 0 { 2.0 / f64::from(power + 1) } else { 0.0 };
                 assert!((sum - exact).abs() < 1e-14, "{n} points, power {power}");
             }
+        }
+    }
+
+    #[test]
+    fn a_closed_curve_is_searched_at_both_ends() {
+        let knots = Knots { degree: 2, knots: vec![0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 3.0, 3.0] };
+        let corners = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [0.0, 0.0]];
+        let curve = Curve { knots, points: corners.map(|[x, y]| Vec3::new(x, y, 0.0)).to_vec() };
+        for t in [0.01, 1.5, 2.99] {
+            let (found, distance) = curve.closest(curve.at(t), [0.0, 3.0]);
+            assert!((found - t).abs() < 1e-9 && distance < 1e-9, "{t}: {found}");
         }
     }
 
