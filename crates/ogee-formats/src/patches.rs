@@ -86,6 +86,14 @@ pub fn write(part: &Part, out: &mut impl Write) -> io::Result<()> {
 
 /// Reads patches.
 ///
+/// ```
+/// let text = br#"{"patches":[{"face":7,"corner":null,"degree":[1,1],"knots_u":[0,0,1,1],"knots_v":[0,0,1,1],
+///     "points":[[[0,0,0],[0,1,0]],[[1,0,0],[1,1,0]]]}]}"#;
+/// let patches = ogee_formats::patches::read(text)?;
+/// assert_eq!(patches[0].quads[(0, 0)].to_string(), "f7");
+/// # Ok::<(), ogee_formats::patches::PatchesError>(())
+/// ```
+///
 /// # Errors
 /// If the text is not of the shape above, or the numbers of a patch do not make a surface.
 pub fn read(text: &[u8]) -> Result<Vec<Patch>, PatchesError> {

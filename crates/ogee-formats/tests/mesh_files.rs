@@ -159,14 +159,14 @@ fn glb_takes_units_and_axes_into_its_matrix() {
 fn glb_normals_are_unit_even_where_none_is_given() {
     let cube = shapes::cube();
     let mut given = [Vec3::new(0.0, 3.0, 0.0); 8];
-    given[5] = Vec3::ZERO;
+    given[1] = Vec3::ZERO;
     for normals in [None, Some(&given[..])] {
         let file = write(&MeshView { normals, ..MeshView::of_cage(&cube, "") }, MeshFormat::Glb);
         let binary = chunks(&file).1;
         for v in 0..8 {
             let normal = Vec3::from([0, 4, 8].map(|i| f64::from(f32_at(binary, 96 + 12 * v + i))));
             assert!((normal.length() - 1.0).abs() < 1e-6);
-            if normals.is_none() || v == 5 {
+            if normals.is_none() || v == 1 {
                 assert!(normal.dot(cube.points[v]) > 0.5, "outward");
             } else {
                 assert_eq!(normal, Vec3::new(0.0, 1.0, 0.0));

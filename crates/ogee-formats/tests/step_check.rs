@@ -468,35 +468,48 @@ fn planes_and_lines_are_understood() {
     assert_eq!(codes(&planar(".F.")), ["loop_clockwise"]);
 }
 
+/// A flat face of 30 x 30 trimmed by straight edges from corner to corner of a polygon.
+fn trimmed(corners: &[[f64; 2]]) -> ogee::nurbs::Shell {
+    let [x, y] = [Vec3::new(30.0, 0.0, 0.0), Vec3::new(0.0, 30.0, 0.0)];
+    let mut shell = sew(vec![Cloth::new(dome(Vec3::ZERO, x, y, Vec3::ZERO))]);
+    let used = shell.faces[0].boundary[0];
+    shell.vertices = corners.iter().map(|&[x, y]| Vec3::new(x, y, 0.0)).collect();
+    shell.edges.clear();
+    shell.faces[0].boundary.clear();
+    for k in 0..corners.len() {
+        let next = (k + 1) % corners.len();
+        let points =
+            (0..4).map(|i| shell.vertices[k].lerp(shell.vertices[next], f64::from(i) / 3.0)).collect();
+        let curve = ogee::nurbs::NurbsCurve { knots: bezier(), points };
+        let (start, end) = (k as u32, next as u32);
+        shell.edges.push(ogee::nurbs::ShellEdge { start, end, curve, smooth: false });
+        shell.faces[0].boundary.push(ogee::nurbs::EdgeUse { edge: k as u32, ..used });
+    }
+    shell
+}
+
 #[test]
 fn trimmed_faces_are_passed_over() {
-    // The bottom cut off along a diagonal: a loop that follows two sides of its surface.
-    let mut shell = sheet();
-    let diagonal = ogee::nurbs::NurbsCurve {
-        knots: bezier(),
-        points: (0..4).map(|k| Vec3::new(10.0, 10.0, 0.0) * k as f64 + Vec3::new(0.0, 0.0, 50.0)).collect(),
-    };
-    let flat =
-        dome(Vec3::new(0.0, 0.0, 50.0), Vec3::new(30.0, 0.0, 0.0), Vec3::new(0.0, 30.0, 0.0), Vec3::ZERO);
-    shell.faces[0].surface = flat;
-    let (start, end) = (shell.edges[0].start, shell.edges[1].end);
-    shell.edges.truncate(2);
-    shell.edges.push(ogee::nurbs::ShellEdge { start: end, end: start, curve: diagonal, smooth: false });
-    shell.edges[2].curve.points.reverse();
-    let face = &mut shell.faces[0];
-    face.boundary.truncate(2);
-    face.boundary.push(ogee::nurbs::EdgeUse {
-        edge: 2,
-        forward: true,
-        side: ogee::nurbs::Side::V1,
-        range: [1.0, 0.0],
-    });
-    let trimmed = part(vec![ogee::convert::Body::Sheet(shell.clone())]);
-    assert_clean(&check(text(&trimmed, &Options::default()).as_bytes()), "trimmed");
-    // An edge through the air is no trimming.
+    for corners in [
+        // Half of the surface, a corner cut off, much of it, little of it, a strip from one side, a notch.
+        &[[0.0, 0.0], [30.0, 0.0], [30.0, 30.0]][..],
+        &[[0.0, 0.0], [30.0, 0.0], [30.0, 20.0], [20.0, 30.0], [0.0, 30.0]],
+        &[[0.0, 0.0], [30.0, 0.0], [30.0, 29.5], [29.5, 30.0], [0.0, 30.0]],
+        &[[0.0, 0.0], [30.0, 0.0], [30.0, 29.5], [20.0, 30.0], [0.0, 30.0]],
+        &[[0.0, 0.0], [30.0, 0.0], [30.0, 28.0], [0.0, 28.0]],
+        &[[0.0, 0.0], [30.0, 0.0], [30.0, 30.0], [20.0, 30.0], [15.0, 29.0], [10.0, 30.0], [0.0, 30.0]],
+    ] {
+        let part = part(vec![ogee::convert::Body::Sheet(trimmed(corners))]);
+        assert_clean(&check(text(&part, &Options::default()).as_bytes()), &format!("{corners:?}"));
+    }
+}
+
+#[test]
+fn an_edge_through_the_air_is_found() {
+    let mut shell = trimmed(&[[0.0, 0.0], [30.0, 0.0], [30.0, 30.0]]);
     shell.edges[2].curve.points[1].z += 5.0;
-    let trimmed = part(vec![ogee::convert::Body::Sheet(shell)]);
-    assert_eq!(codes(&text(&trimmed, &Options::default())), ["edge_off_surface"]);
+    let part = part(vec![ogee::convert::Body::Sheet(shell)]);
+    assert_eq!(codes(&text(&part, &Options::default())), ["edge_off_surface"]);
 }
 
 // Any input.

@@ -39,9 +39,10 @@ fn split_is_consistent() {
                     assert_eq!(t.edge(twin), t.edge(h), "{name}");
                 }
             }
-            let edges = t.edge_halfedges();
+            let edges: Vec<_> = t.edge_halfedges().collect();
             for (e, &h) in edges.iter().enumerate() {
                 assert_eq!(t.edge(h), EdgeId(e as u32));
+                assert!(t.twin(h).is_none_or(|twin| h < twin), "{name}");
                 assert_eq!(seen[e], 1 + i32::from(t.twin(h).is_some()), "{name}");
             }
             for v in (0..t.vertex_count() as u32).map(VertexId) {

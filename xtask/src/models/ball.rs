@@ -26,7 +26,7 @@ pub(super) fn model() -> Model {
     for &[p, q, r] in &triangles {
         let seams = [near[p][q], near[q][p], near[q][r], near[r][q], near[r][p], near[p][r]];
         panel(&mut b, &seams);
-        // Its short seams lie between hexagons, each met from both; its others each bound one pentagon.
+        // Every second seam bounds a pentagon; the others are met again from the next hexagon.
         for k in 0..6 {
             let (v, w) = (seams[k], seams[(k + 1) % 6]);
             if k % 2 == 1 || v < w {
@@ -34,16 +34,8 @@ pub(super) fn model() -> Model {
             }
         }
     }
-    for p in 0..12 {
-        let first = triangles.iter().find_map(|t| t.iter().position(|&v| v == p).map(|k| t[(k + 1) % 3]));
-        let after = |q: usize| {
-            triangles.iter().find_map(|t| {
-                let k = t.iter().position(|&v| v == p)?;
-                (t[(k + 1) % 3] == q).then_some(t[(k + 2) % 3])
-            })
-        };
-        let around = std::iter::successors(first, |&q| after(q));
-        let seams: Vec<u32> = around.take(5).map(|q| near[p][q]).collect();
+    for p in 0..corners.len() {
+        let seams: Vec<u32> = neighbours(p, &triangles).into_iter().map(|q| near[p][q]).collect();
         panel(&mut b, &seams);
     }
     Model {
@@ -70,6 +62,17 @@ fn panel(b: &mut Builder, seams: &[u32]) {
     let raised = b.points(raised);
     b.bridge(seams, &raised);
     b.face(&raised);
+}
+
+/// The corners around corner `p`, counter-clockwise.
+fn neighbours(p: usize, triangles: &[[usize; 3]]) -> Vec<usize> {
+    let around = triangles.iter().filter_map(|t| {
+        let k = t.iter().position(|&v| v == p)?;
+        Some((t[(k + 1) % 3], t[(k + 2) % 3]))
+    });
+    let around: Vec<(usize, usize)> = around.collect();
+    let after = |&q: &usize| around.iter().find(|pair| pair.0 == q).map(|pair| pair.1);
+    std::iter::successors(Some(around[0].0), after).take(around.len()).collect()
 }
 
 /// Unit corners, poles first and last, and triangles seen from outside.

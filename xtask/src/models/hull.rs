@@ -35,7 +35,6 @@ pub(super) fn model() -> Model {
     let mut b = Builder::default();
     let columns: Vec<Vec<u32>> = STATIONS.iter().map(|station| b.points(section(station))).collect();
     let stem = b.points(STEM.map(|[y, z]| Vec3::new(0.0, y, z)));
-    // Starboard lies at positive x when one looks towards the bow, against y.
     for pair in columns.windows(2) {
         for j in 0..ROWS {
             b.face(&[pair[0][j], pair[0][j + 1], pair[1][j + 1], pair[1][j]]);
@@ -100,7 +99,7 @@ fn transom(b: &mut Builder, edge: &[u32]) {
     for j in 1..ROWS {
         let z = if j == ROWS - 1 { top } else { b.at(inset[j + 1]).z };
         let here = b.point(middle(z));
-        b.face(&[below, here, inset[j + 1], if j == 1 { inset[1] } else { inset[j] }]);
+        b.face(&[below, here, inset[j + 1], inset[j]]);
         below = here;
     }
 }

@@ -1,6 +1,7 @@
 //! `Emitter`: lines of a STEP file, numbered in the order of writing, with every point written once.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::fmt::Arguments;
 use std::hash::{BuildHasherDefault, Hasher};
 use std::io::{self, Write};
@@ -46,12 +47,12 @@ impl<'a, W: Write> Emitter<'a, W> {
     /// no sign.
     pub(super) fn point(&mut self, point: Vec3) -> io::Result<Id> {
         let key = <[f64; 3]>::from(point).map(|coordinate| (coordinate + 0.0).to_bits());
-        if let Some(&id) = self.points.get(&key) {
-            return Ok(id);
-        }
+        let place = match self.points.entry(key) {
+            Entry::Occupied(place) => return Ok(*place.get()),
+            Entry::Vacant(place) => place,
+        };
         self.last += 1;
-        let id = Id(self.last);
-        self.points.insert(key, id);
+        let id = *place.insert(Id(self.last));
         write!(self.text, "{id}=CARTESIAN_POINT('',(")?;
         push_real(&mut self.text, point.x);
         self.text.push(b',');

@@ -20,6 +20,18 @@ use crate::finite::require_finite;
 /// A solid becomes a `MANIFOLD_SOLID_BREP`, with hollows a `BREP_WITH_VOIDS`, a sheet a
 /// `SHELL_BASED_SURFACE_MODEL`. Faces are named after the pieces of the cage they cover (`f12`, `f12.3`).
 ///
+/// ```
+/// use ogee::convert::{Part, Report};
+/// use ogee_formats::step::{self, Options, Unit};
+///
+/// let part = Part { bodies: Vec::new(), report: Report::default() };
+/// let options = Options { unit: Unit::Inch, name: "lamp".to_owned(), ..Options::default() };
+/// let mut text = Vec::new();
+/// step::write(&part, &options, &mut text)?;
+/// assert!(step::check(&text).is_clean());
+/// # Ok::<(), std::io::Error>(())
+/// ```
+///
 /// # Errors
 /// `InvalidData`, before anything is written, if the part holds a number that is not finite; otherwise what
 /// `out` reports.

@@ -1,10 +1,12 @@
 //! Figures of shells: continuity over edges, volume, area, extent.
 
 use crate::math::{Vec3, par};
-use crate::nurbs::{EdgeUse, Shell, ShellFace, gauss};
+use crate::nurbs::{EdgeUse, KnotVector, Shell, ShellFace, Side, gauss};
 
-/// Samples along an edge for position and normal, ends included.
-const SAMPLES: usize = 33;
+/// Samples of position and normal along an edge: so many on each of its end quads, where smoothing was at work, ends
+/// included, and fewer on each quad between.
+const SAMPLES_AT_ENDS: usize = 33;
+const SAMPLES_BETWEEN: usize = 4;
 
 /// Sine of the angle between `du` and `dv` below which a corner counts as singular: its normal is noise.
 const SINGULAR: f64 = 1e-9;
@@ -62,8 +64,8 @@ fn across(a: &ShellFace, first: EdgeUse, b: &ShellFace, second: EdgeUse, smooth:
         let (u, v) = face.surface.on_side(used.side, from + t * (to - from));
         face.surface.jet(u, v)
     };
-    for k in 0..SAMPLES {
-        let t = k as f64 / (SAMPLES - 1) as f64;
+    let stations = stations((first.range[1] - first.range[0]).abs());
+    for (k, &t) in stations.iter().enumerate() {
         let (here, there) = (at(a, first, t), at(b, second, t));
         found.max_gap = found.max_gap.max(here.position.distance(there.position));
         if !smooth {
@@ -74,13 +76,14 @@ fn across(a: &ShellFace, first: EdgeUse, b: &ShellFace, second: EdgeUse, smooth:
         if regular(n, here.du, here.dv) && regular(m, there.du, there.dv) {
             found.max_normal_angle = found.max_normal_angle.max(n.angle(m));
         }
-        // Between knots: on one the curvature along the edge has two values.
-        let between = (k as f64 + 0.5) / SAMPLES as f64;
+        // Between samples, which are on knots: there the curvature along the edge has two values.
+        let Some(&next) = stations.get(k + 1) else { break };
+        let between = (t + next) / 2.0;
         let (here, there) = (at(a, first, between), at(b, second, between));
         let Some(normal) = here.normal() else { continue };
         let along = match first.side {
-            crate::nurbs::Side::V0 | crate::nurbs::Side::V1 => here.du,
-            crate::nurbs::Side::U0 | crate::nurbs::Side::U1 => here.dv,
+            Side::V0 | Side::V1 => here.du,
+            Side::U0 | Side::U1 => here.dv,
         };
         let perpendicular = normal.cross(along);
         let curvatures =
@@ -92,6 +95,20 @@ fn across(a: &ShellFace, first: EdgeUse, b: &ShellFace, second: EdgeUse, smooth:
     found
 }
 
+/// Where an edge of so many quads is sampled, in `[0, 1]`.
+fn stations(quads: f64) -> Vec<f64> {
+    let steps = (SAMPLES_AT_ENDS - 1) as f64;
+    if quads <= 2.0 {
+        let steps = (steps * quads).round();
+        return (0..=steps as u32).map(|k| f64::from(k) / steps).collect();
+    }
+    let at_start = (0..SAMPLES_AT_ENDS - 1).map(|k| k as f64 / steps);
+    let between = (SAMPLES_BETWEEN as f64 * (quads - 2.0)).round();
+    let middle = (0..between as u32).map(|k| 1.0 + (quads - 2.0) * f64::from(k) / between);
+    let at_end = (0..SAMPLES_AT_ENDS).map(|k| quads - 1.0 + k as f64 / steps);
+    at_start.chain(middle).chain(at_end).map(|t| t / quads).collect()
+}
+
 /// Enclosed volume (meaningful for a closed shell) and area.
 pub(super) fn volume_and_area(shell: &Shell) -> (f64, f64) {
     let faces = par::map(shell.faces.len(), |face| {
@@ -99,7 +116,7 @@ pub(super) fn volume_and_area(shell: &Shell) -> (f64, f64) {
         // S . (Su x Sv) has degree 3 p - 1 along u: that many points are exact for the volume.
         let points = (3 * surface.u.degree().max(surface.v.degree())).div_ceil(2) + 1;
         let nodes = gauss(points);
-        let stations = |knots: &crate::nurbs::KnotVector| {
+        let stations = |knots: &KnotVector| {
             let mut out = Vec::new();
             for span in knots.spans() {
                 let (low, high) = (knots.knots()[span], knots.knots()[span + 1]);
@@ -134,7 +151,7 @@ pub(super) fn bounding_box(shell: &Shell) -> Option<[Vec3; 2]> {
 fn face_box(face: &ShellFace) -> [Vec3; 2] {
     const PER_SPAN: usize = 4;
     let surface = &face.surface;
-    let stations = |knots: &crate::nurbs::KnotVector| {
+    let stations = |knots: &KnotVector| {
         let mut out = vec![knots.domain()[0]];
         for span in knots.spans() {
             let (low, high) = (knots.knots()[span], knots.knots()[span + 1]);

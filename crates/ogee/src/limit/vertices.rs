@@ -28,9 +28,7 @@ const CONVERGED: u32 = 90;
 /// # Panics
 /// If there are fewer points than vertices.
 pub fn limit_vertices(level: &Level, points: &[Vec3]) -> Vec<LimitVertex> {
-    let mut out = vec![LimitVertex { position: Vec3::ZERO, normal: None }; level.topology().vertex_count()];
-    par::fill(&mut out, |v| limit_vertex(level, points, VertexId(v as u32)));
-    out
+    par::collect(level.topology().vertex_count(), |v| limit_vertex(level, points, VertexId(v as u32)))
 }
 
 /// The limit of one vertex.

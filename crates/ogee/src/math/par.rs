@@ -7,23 +7,16 @@
 #[cfg(feature = "rayon")]
 const CHUNK: usize = 1024;
 
-/// `out[i] = f(i)` for all `i`, on all cores.
-pub(crate) fn fill<T: Send>(out: &mut [T], f: impl Fn(usize) -> T + Sync) {
+/// `f(0), f(1), .. f(count - 1)` on all cores; memory is written once, not cleared before.
+pub(crate) fn collect<T: Send>(count: usize, f: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
     #[cfg(feature = "rayon")]
     {
         use rayon::prelude::*;
-        if out.len() > CHUNK {
-            out.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, cells)| {
-                for (i, cell) in cells.iter_mut().enumerate() {
-                    *cell = f(chunk * CHUNK + i);
-                }
-            });
-            return;
+        if count > CHUNK {
+            return (0..count).into_par_iter().with_min_len(CHUNK).map(f).collect();
         }
     }
-    for (i, cell) in out.iter_mut().enumerate() {
-        *cell = f(i);
-    }
+    (0..count).map(f).collect()
 }
 
 /// `f(0), f(1), .. f(count - 1)`, each worth a task of its own, on all cores.

@@ -46,6 +46,33 @@ pub fn torus(around: u32, across: u32) -> ControlMesh {
     ControlMesh::new(points.collect(), faces.collect())
 }
 
+/// A torus of which every `spacing`-th quad, both ways, is drawn out to a block: four vertices of valence 3 and four of
+/// valence 5 each. With a spacing of 12 about one vertex in twenty is extraordinary.
+pub fn studded_torus(around: u32, across: u32, spacing: u32) -> ControlMesh {
+    let smooth = torus(around, across);
+    let mut mesh = ControlMesh { points: smooth.points, ..ControlMesh::default() };
+    let drawn = |f: usize| (f as u32 / across) % spacing == 0 && (f as u32 % across) % spacing == 0;
+    for (f, face) in smooth.faces.iter().enumerate() {
+        if !drawn(f) {
+            mesh.faces.push(face);
+            continue;
+        }
+        let p = |k: usize| mesh.points[face[k] as usize];
+        let up = (p(2) - p(0)).cross(p(3) - p(1));
+        // As high as the quad is wide, more or less.
+        let out = up.normalized().unwrap_or(Vec3::ZERO) * up.length().sqrt();
+        let first = mesh.points.len() as u32;
+        let top: Vec<Vec3> = (0..4).map(|k| p(k) + out).collect();
+        mesh.points.extend(top);
+        mesh.faces.push(&[first, first + 1, first + 2, first + 3]);
+        for k in 0..4 {
+            let next = (k + 1) % 4;
+            mesh.faces.push(&[face[k], face[next], first + next as u32, first + k as u32]);
+        }
+    }
+    mesh
+}
+
 /// An open disk of `rings` rings of quads around one vertex of valence `n`, slightly domed. Vertex 0 is the
 /// middle.
 pub fn disk(n: u32, rings: u32) -> ControlMesh {

@@ -19,9 +19,10 @@ pub struct Topology {
     pub(crate) origin: Vec<u32>,
     pub(crate) twin: Vec<u32>,
     pub(crate) edge: Vec<u32>,
+    /// For each edge its halfedge with the smaller number.
+    pub(crate) first_side: Vec<u32>,
     /// For each vertex a halfedge that leaves it: on a boundary the one without twin; `NONE` if isolated.
     pub(crate) outgoing: Vec<u32>,
-    pub(crate) edges: u32,
     pub(crate) layout: Layout,
 }
 
@@ -117,8 +118,8 @@ impl Topology {
             origin: faces.corners().to_vec(),
             twin: pairs.twin,
             edge: Vec::new(),
+            first_side: Vec::new(),
             outgoing: vec![NONE; vertices],
-            edges: 0,
             layout,
         };
         topology.number_edges();
@@ -127,14 +128,18 @@ impl Topology {
 
     fn number_edges(&mut self) {
         let mut edge = vec![NONE; self.twin.len()];
-        let mut count = 0;
+        let mut first_side = Vec::new();
         for (h, &twin) in self.twin.iter().enumerate() {
             // A twin with a smaller number was met first; `NONE` is greater than all.
-            edge[h] = if (twin as usize) < h { edge[twin as usize] } else { count };
-            count += u32::from(twin as usize > h);
+            if (twin as usize) < h {
+                edge[h] = edge[twin as usize];
+            } else {
+                edge[h] = first_side.len() as u32;
+                first_side.push(h as u32);
+            }
         }
         self.edge = edge;
-        self.edges = count;
+        self.first_side = first_side;
     }
 
     /// Fills `outgoing`; false if the faces of some vertex form more than one fan.
@@ -158,7 +163,7 @@ impl Topology {
 
     /// Number of edges.
     pub fn edge_count(&self) -> usize {
-        self.edges as usize
+        self.first_side.len()
     }
 
     /// Number of faces.
@@ -289,13 +294,15 @@ impl Topology {
         if self.is_boundary(v) { Valence::Boundary(faces) } else { Valence::Interior(faces) }
     }
 
+    /// The halfedge of an edge that has the smaller number.
+    #[inline]
+    pub fn side(&self, e: EdgeId) -> HalfedgeId {
+        HalfedgeId(self.first_side[e.index()])
+    }
+
     /// One halfedge of each edge, in the order of the edges: the one with the smaller number.
-    pub fn edge_halfedges(&self) -> Vec<HalfedgeId> {
-        let mut first = vec![HalfedgeId(NONE); self.edge_count()];
-        for h in (0..self.halfedge_count() as u32).rev() {
-            first[self.edge[h as usize] as usize] = HalfedgeId(h);
-        }
-        first
+    pub fn edge_halfedges(&self) -> impl ExactSizeIterator<Item = HalfedgeId> + '_ {
+        self.first_side.iter().map(|&h| HalfedgeId(h))
     }
 }
 

@@ -4,7 +4,7 @@
 use super::KnotVector;
 
 /// Highest degree that is evaluated.
-pub(crate) const MAX_DEGREE: usize = 9;
+pub(crate) const MAX_DEGREE: usize = 7;
 
 /// The basis functions that do not vanish at a parameter, with first and second derivatives.
 #[derive(Clone, Copy, Debug)]
@@ -38,56 +38,51 @@ impl KnotVector {
     pub(crate) fn basis_on(&self, span: usize, t: f64) -> Basis {
         let (p, knots) = (self.degree(), self.knots());
         debug_assert!(p <= MAX_DEGREE);
-        // ndu[j][r]: basis values below the diagonal-to-be, knot differences above, as in A2.3.
-        let mut ndu = [[0.0; MAX_DEGREE + 1]; MAX_DEGREE + 1];
-        let (mut left, mut right) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
-        ndu[0][0] = 1.0;
-        for j in 1..=p {
-            left[j] = t - knots[span + 1 - j];
-            right[j] = knots[span + j] - t;
-            let mut saved = 0.0;
-            for r in 0..j {
-                ndu[j][r] = right[r + 1] + left[j - r];
-                let share = ndu[r][j - 1] / ndu[j][r];
-                ndu[r][j] = saved + right[r + 1] * share;
-                saved = left[j - r] * share;
-            }
-            ndu[j][j] = saved;
-        }
         let mut values = [[0.0; MAX_DEGREE + 1]; 3];
-        for k in 0..=p {
-            values[0][k] = ndu[k][p];
-        }
-        // A derivative of a B-spline is the difference of two of the next lower degree, over their knots' distance.
-        let lower = |k: isize, degree: usize| -> f64 {
-            if k < 0 || k as usize > degree { 0.0 } else { ndu[k as usize][degree] }
-        };
-        let slope = |k: isize, degree: usize| -> f64 {
-            // Function k of `degree`, counted in its own row, differentiated once.
-            let quotient = |j: isize| {
-                if j < 0 || j as usize > degree - 1 {
-                    0.0
-                } else {
-                    lower(j, degree - 1) / ndu[degree][j as usize]
+        // Of the degrees p - 1 and p - 2: each function over the distance of the knots that it will be blended over.
+        let (mut first_shares, mut second_shares) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
+        let mut distances = [1.0; MAX_DEGREE + 1];
+        let current = &mut values[0];
+        current[0] = 1.0;
+        for degree in 1..=p {
+            let mut saved = 0.0;
+            for r in 0..degree {
+                let (low, high) = (knots[span + 1 + r - degree], knots[span + 1 + r]);
+                let distance = high - low;
+                let share = current[r] / distance;
+                if degree == p {
+                    first_shares[r] = share;
+                    distances[r] = distance;
+                } else if degree + 1 == p {
+                    second_shares[r] = share;
                 }
-            };
-            degree as f64 * (quotient(k - 1) - quotient(k))
-        };
-        if p >= 1 {
-            for k in 0..=p {
-                values[1][k] = slope(k as isize, p);
+                current[r] = saved + (high - t) * share;
+                saved = (t - low) * share;
             }
+            current[degree] = saved;
         }
+        // A derivative of a B-spline is the difference of two of the next lower degree, over their knots' distances.
+        differences(p, &first_shares, &mut values[1]);
         if p >= 2 {
-            for k in 0..=p {
-                let quotient = |j: isize| {
-                    if j < 0 || j as usize > p - 1 { 0.0 } else { slope(j, p - 1) / ndu[p][j as usize] }
-                };
-                values[2][k] = p as f64 * (quotient(k as isize - 1) - quotient(k as isize));
+            let mut slopes = [0.0; MAX_DEGREE + 1];
+            differences(p - 1, &second_shares, &mut slopes);
+            for (slope, distance) in slopes.iter_mut().zip(distances).take(p) {
+                *slope /= distance;
             }
+            differences(p, &slopes, &mut values[2]);
         }
         Basis { first: span - p, values }
     }
+}
+
+/// `out[k] = degree (shares[k - 1] - shares[k])`, shares outside `0..degree` being zero.
+fn differences(degree: usize, shares: &[f64; MAX_DEGREE + 1], out: &mut [f64; MAX_DEGREE + 1]) {
+    let mut before = 0.0;
+    for k in 0..degree {
+        out[k] = degree as f64 * (before - shares[k]);
+        before = shares[k];
+    }
+    out[degree] = degree as f64 * before;
 }
 
 #[cfg(test)]

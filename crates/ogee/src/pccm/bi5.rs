@@ -26,8 +26,7 @@ pub fn to_quintic_patches(base: &Level, points: &[Vec3]) -> Result<Vec<Grid<Vec3
     refuse_tags(base)?;
     let topology = base.topology();
     let spokes = spokes(base, points);
-    let mut quartics: Vec<[Vec3; 5]> =
-        topology.edge_halfedges().iter().map(|&h| quartic(base, &spokes, h)).collect();
+    let mut quartics: Vec<[Vec3; 5]> = topology.edge_halfedges().map(|h| quartic(base, &spokes, h)).collect();
     balance(base, &mut quartics);
 
     let start: Vec<Grid<Vec3>> =

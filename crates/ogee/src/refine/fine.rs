@@ -50,8 +50,8 @@ impl Level {
     fn last_step(&self, points: &[Vec3]) -> FineMesh {
         let topology = self.topology();
         let fine_points = self.child_points(points);
-        let mut faces = vec![[0; 4]; topology.halfedge_count()];
-        par::fill(&mut faces, |h| topology.child_quad(HalfedgeId(h as u32)));
+        let mut faces =
+            par::collect(topology.halfedge_count(), |h| topology.child_quad(HalfedgeId(h as u32)));
         if !self.hidden_faces().is_empty() {
             let mut halfedge = 0;
             faces.retain(|_| {

@@ -4,7 +4,7 @@
 //! rows; everything a tag touches asks the rule table. The test `fast_path_equals_the_table` holds the two together.
 
 use crate::math::{Interpolate, par};
-use crate::mesh::{HalfedgeId, Topology, VertexId};
+use crate::mesh::{EdgeId, FaceId, HalfedgeId, Topology, VertexId};
 use crate::rules::{Level, VertexMask, masks};
 use crate::stencil::Row;
 
@@ -21,27 +21,26 @@ impl Level {
     pub(crate) fn child_points<T: Interpolate>(&self, points: &[T]) -> Vec<T> {
         let topology = self.topology();
         let (vertices, faces) = (topology.vertex_count(), topology.face_count());
-        let mut out = vec![T::zero(); vertices + faces + topology.edge_count()];
-        let (vertex_points, rest) = out.split_at_mut(vertices);
-        let (face_points, edge_points) = rest.split_at_mut(faces);
-        par::fill(face_points, |f| face_point(topology, f, points));
-        let face_points = &*face_points;
-        let edges = topology.edge_halfedges();
+        let points = &points[..vertices];
+        let face_points = par::collect(faces, |f| face_point(topology, FaceId(f as u32), points));
         let (edge_rules, vertex_rules) = self.tagged_rules();
-        par::fill(edge_points, |e| {
-            if !edge_rules.is_empty() && edge_rules.get(e as u32).is_some() {
-                return by_table(points, |row| masks::edge_mask(self, edges[e], row));
+        par::collect(vertices + faces + topology.edge_count(), |i| {
+            if i < vertices {
+                let v = VertexId(i as u32);
+                if !vertex_rules.is_empty() && vertex_rules.get(v.0).is_some() {
+                    return by_table(points, |row| masks::vertex_mask(self, v, row));
+                }
+                vertex_point(self, v, points, &face_points)
+            } else if i < vertices + faces {
+                face_points[i - vertices].clone()
+            } else {
+                let e = EdgeId((i - vertices - faces) as u32);
+                if !edge_rules.is_empty() && edge_rules.get(e.0).is_some() {
+                    return by_table(points, |row| masks::edge_mask(self, topology.side(e), row));
+                }
+                edge_point(topology, topology.side(e), points, &face_points)
             }
-            edge_point(topology, edges[e], points, face_points)
-        });
-        par::fill(vertex_points, |v| {
-            let v = VertexId(v as u32);
-            if !vertex_rules.is_empty() && vertex_rules.get(v.0).is_some() {
-                return by_table(points, |row| masks::vertex_mask(self, v, row));
-            }
-            vertex_point(self, v, points, face_points)
-        });
-        out
+        })
     }
 }
 
@@ -56,8 +55,7 @@ fn by_table<T: Interpolate>(points: &[T], write: impl Fn(&mut Row)) -> T {
 }
 
 #[inline]
-fn face_point<T: Interpolate>(topology: &Topology, f: usize, points: &[T]) -> T {
-    let f = crate::mesh::FaceId(f as u32);
+fn face_point<T: Interpolate>(topology: &Topology, f: FaceId, points: &[T]) -> T {
     let share = 1.0 / f64::from(topology.face_size(f));
     let mut value = T::zero();
     for h in topology.halfedges(f) {
@@ -86,13 +84,18 @@ fn edge_point<T: Interpolate>(topology: &Topology, h: HalfedgeId, points: &[T], 
 fn vertex_point<T: Interpolate>(level: &Level, v: VertexId, points: &[T], face_points: &[T]) -> T {
     let topology = level.topology();
     let own = &points[v.index()];
-    if !topology.is_boundary(v) && topology.outgoing(v).is_some() {
+    if let Some(first) = topology.outgoing(v).filter(|&h| topology.twin(h).is_some()) {
         let mut around = T::zero();
         let mut n = 0.0;
-        for h in topology.ring(v) {
+        let mut h = first;
+        loop {
             around.add_scaled(1.0, &points[topology.target(h).index()]);
             around.add_scaled(1.0, &face_points[topology.face(h).index()]);
             n += 1.0;
+            match topology.twin(topology.prev(h)) {
+                Some(next) if next != first => h = next,
+                _ => break,
+            }
         }
         let mut value = T::zero();
         value.add_scaled((n - 2.0) / n, own);

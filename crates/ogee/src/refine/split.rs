@@ -20,7 +20,7 @@
 
 use crate::math::par;
 use crate::mesh::topology::{Layout, NONE};
-use crate::mesh::{FaceId, HalfedgeId, Topology};
+use crate::mesh::{EdgeId, FaceId, HalfedgeId, Topology};
 
 impl Topology {
     /// The corners of quad `h` of the next level, in its order `o, e, f, p`.
@@ -39,11 +39,8 @@ impl Topology {
     /// The topology one step on. The caller has made sure that `4H` fits.
     pub(crate) fn split(&self) -> Topology {
         let halfedges = self.halfedge_count();
-        let mut origin = vec![[0u32; 4]; halfedges];
-        par::fill(&mut origin, |h| self.child_quad(HalfedgeId(h as u32)));
-
-        let mut twin = vec![[NONE; 4]; halfedges];
-        par::fill(&mut twin, |h| {
+        let origin = par::collect(halfedges, |h| self.child_quad(HalfedgeId(h as u32)));
+        let twin = par::collect(halfedges, |h| {
             let h = HalfedgeId(h as u32);
             let prev = self.prev(h);
             [
@@ -53,10 +50,9 @@ impl Topology {
                 self.twin(prev).map_or(NONE, |twin| 4 * twin.0),
             ]
         });
-
-        let inner = 2 * self.edge_count() as u32;
-        let mut edge = vec![[0u32; 4]; halfedges];
-        par::fill(&mut edge, |h| {
+        let edges = self.edge_count();
+        let inner = 2 * edges as u32;
+        let edge = par::collect(halfedges, |h| {
             let h = HalfedgeId(h as u32);
             let prev = self.prev(h);
             // The half at the origin of the smaller halfedge is `2e`, the other `2e + 1`; `NONE` is greater than all.
@@ -69,27 +65,42 @@ impl Topology {
                 2 * self.edge(prev).0 + half_at_target,
             ]
         });
-
+        let first_side = par::collect(2 * edges + halfedges, |e| {
+            if e >= 2 * edges {
+                let h = HalfedgeId((e - 2 * edges) as u32);
+                return (4 * h.0 + 1).min(4 * self.next(h).0 + 2);
+            }
+            let h = self.side(EdgeId(e as u32 / 2));
+            let twin = self.twin(h);
+            if e % 2 == 0 {
+                twin.map_or(4 * h.0, |twin| (4 * h.0).min(4 * self.next(twin).0 + 3))
+            } else {
+                let far = 4 * self.next(h).0 + 3;
+                twin.map_or(far, |twin| far.min(4 * twin.0))
+            }
+        });
         Topology {
             outgoing: self.split_outgoing(),
             origin: origin.into_flattened(),
             twin: twin.into_flattened(),
             edge: edge.into_flattened(),
-            edges: inner + halfedges as u32,
+            first_side,
             layout: Layout::Quads,
         }
     }
 
     fn split_outgoing(&self) -> Vec<u32> {
-        let vertices = self.outgoing.iter().map(|&h| if h == NONE { NONE } else { 4 * h });
-        let faces = (0..self.face_count() as u32).map(|f| 4 * self.first(FaceId(f)).0 + 2);
-        let mut outgoing: Vec<u32> = vertices.chain(faces).collect();
-        let first_edge_point = outgoing.len();
-        outgoing.resize(first_edge_point + self.edge_count(), NONE);
-        for h in (0..self.halfedge_count() as u32).rev().map(HalfedgeId) {
-            // Where the edge is a boundary this halfedge has no twin either.
-            outgoing[first_edge_point + self.edge(h).index()] = 4 * self.next(h).0 + 3;
-        }
-        outgoing
+        let (vertices, faces) = (self.vertex_count(), self.face_count());
+        par::collect(vertices + faces + self.edge_count(), |v| {
+            if v < vertices {
+                let h = self.outgoing[v];
+                if h == NONE { NONE } else { 4 * h }
+            } else if v < vertices + faces {
+                4 * self.first(FaceId((v - vertices) as u32)).0 + 2
+            } else {
+                // Where the edge is a boundary this halfedge has no twin either.
+                4 * self.next(self.side(EdgeId((v - vertices - faces) as u32))).0 + 3
+            }
+        })
     }
 }

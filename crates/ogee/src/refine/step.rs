@@ -1,6 +1,6 @@
 //! One step of refinement, as a level and a table of weights.
 
-use crate::mesh::{FaceId, VertexId};
+use crate::mesh::{EdgeId, FaceId, VertexId};
 use crate::rules::{Level, masks};
 use crate::stencil::StencilTable;
 
@@ -22,14 +22,14 @@ impl Level {
     pub fn refine(&self) -> Step {
         let topology = self.topology();
         let (vertices, faces) = (topology.vertex_count(), topology.face_count());
-        let edges = topology.edge_halfedges();
-        let stencils = StencilTable::from_rows(vertices + faces + edges.len(), |i, row| {
+        let edges = topology.edge_count();
+        let stencils = StencilTable::from_rows(vertices + faces + edges, |i, row| {
             if i < vertices {
                 masks::vertex_mask(self, VertexId(i as u32), row);
             } else if i < vertices + faces {
                 masks::face_mask(self, FaceId((i - vertices) as u32), row);
             } else {
-                masks::edge_mask(self, edges[i - vertices - faces], row);
+                masks::edge_mask(self, topology.side(EdgeId((i - vertices - faces) as u32)), row);
             }
         });
         Step { level: self.split(), stencils }

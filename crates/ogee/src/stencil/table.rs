@@ -83,15 +83,13 @@ impl StencilTable {
     /// # Panics
     /// If a source is missing.
     pub fn apply<T: Interpolate>(&self, sources: &[T]) -> Vec<T> {
-        let mut out = vec![T::zero(); self.len()];
-        par::fill(&mut out, |i| {
+        par::collect(self.len(), |i| {
             let mut value = T::zero();
             for (source, weight) in self.row(i) {
                 value.add_scaled(weight, &sources[source as usize]);
             }
             value
-        });
-        out
+        })
     }
 
     /// The table that does what this one and then `next` do.

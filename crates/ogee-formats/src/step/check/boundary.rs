@@ -13,6 +13,10 @@ use super::spline::{Curve, Surface};
 /// moved pole is to be recognised before it is refused.
 const NEAR: f64 = 5e-2;
 
+/// A loop of more than four edges that strays so far from the boundary, as a share of the surface's size, was
+/// meant to follow it; one that strays further is trimmed.
+const SLIGHT: f64 = 1e-3;
+
 /// A use of an edge: its path, and whether it is followed.
 pub(super) struct Step<'p, 's> {
     pub(super) path: &'p Path<'s>,
@@ -44,7 +48,8 @@ pub(super) struct Round {
     pub(super) area: f64,
     /// How far each edge strays from the boundary.
     pub(super) strays: Vec<f64>,
-    /// True if every corner that is left is a corner of the surface, but for one at most.
+    /// True if the corners of the surface are met, but for one that was moved perhaps: a loop that strays was
+    /// meant to follow the boundary nevertheless.
     pub(super) cornered: bool,
 }
 
@@ -82,14 +87,23 @@ pub(super) fn lay(surface: &Surface, steps: &[Step<'_, '_>], tolerance: f64) -> 
     if area.abs() < 1.5 {
         return None;
     }
-    let [[a, b], [d, c]] = [rows[0].ends(), rows[2].ends()];
-    let corners =
-        [a, b, c, d].map(|corner| steps.iter().any(|step| step.at(0.0).distance(corner) <= tolerance));
     let strays: Vec<f64> = chosen.iter().map(|place| place.stray).collect();
-    let cornered = corners.into_iter().filter(|&met| met).count() >= 3;
-    // With a side for each edge nothing else can be meant.
+    let [[a, b], [d, c]] = [rows[0].ends(), rows[2].ends()];
+    let meeting = |corner: Vec3, within: f64| {
+        steps.iter().filter(|step| step.at(0.0).distance(corner) <= within).count()
+    };
+    let missed: Vec<Vec3> =
+        [a, b, c, d].into_iter().filter(|&corner| meeting(corner, tolerance) == 0).collect();
+    // With a side for each edge nothing but the boundary can be meant.
     let square = steps.len() == 4 && (0..4).all(|side| chosen.iter().any(|place| place.side == side));
-    let followed = strays.iter().all(|&stray| stray <= near) || (square && corners == [true; 4]);
+    let slight = SLIGHT * size(surface);
+    let cornered = match missed[..] {
+        [] => true,
+        // A corner that was moved has one vertex beside it, one that was cut off has two.
+        [corner] => square || meeting(corner, slight) == 1,
+        _ => false,
+    };
+    let followed = strays.iter().all(|&stray| stray <= slight) || (square && cornered);
     followed.then_some(Round { area, strays, cornered })
 }
 

@@ -88,15 +88,14 @@ impl Curve {
     pub(super) fn closest(&self, point: Vec3, [from, to]: [f64; 2]) -> (f64, f64) {
         let count = (4 * self.knots.breaks().len() * self.knots.degree).min(500);
         let at = |k: usize| from + (to - from) * k as f64 / count as f64;
-        let distance = |t: f64| self.at(t).distance(point);
-        let mut best = (from, f64::INFINITY);
-        for t in (0..=count).map(at) {
-            let d = distance(t);
-            if d < best.1 {
-                best = (t, d);
-            }
-        }
-        self.newton(point, best, [from, to])
+        let samples: Vec<(f64, f64)> = (0..=count).map(at).map(|t| (t, self.at(t).distance(point))).collect();
+        // Every hollow is tried: a closed curve has one at either end.
+        let hollows = (0..=count).filter(|&k| {
+            let lower = |other: usize| samples.get(other).is_some_and(|other| other.1 < samples[k].1);
+            !lower(k.wrapping_sub(1)) && !lower(k + 1)
+        });
+        let found = hollows.map(|k| self.newton(point, samples[k], [from, to]));
+        found.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or(samples[0])
     }
 
     /// Newton's steps for the closest place, from a guess; never worse than it.
@@ -111,10 +110,12 @@ impl Curve {
             }
             t = (t + (point - p).dot(d) / speed).clamp(from.min(to), from.max(to));
             let distance = self.at(t).distance(point);
-            if distance >= best.1 {
+            // A number that is none is no improvement.
+            if distance < best.1 {
+                best = (t, distance);
+            } else {
                 break;
             }
-            best = (t, distance);
         }
         best
     }
@@ -261,6 +262,17 @@ mod tests {
                 let exact = if power % 2 == 0 { 2.0 / f64::from(power + 1) } else { 0.0 };
                 assert!((sum - exact).abs() < 1e-14, "{n} points, power {power}");
             }
+        }
+    }
+
+    #[test]
+    fn a_closed_curve_is_searched_at_both_ends() {
+        let knots = Knots { degree: 2, knots: vec![0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 3.0, 3.0] };
+        let corners = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [0.0, 0.0]];
+        let curve = Curve { knots, points: corners.map(|[x, y]| Vec3::new(x, y, 0.0)).to_vec() };
+        for t in [0.01, 1.5, 2.99] {
+            let (found, distance) = curve.closest(curve.at(t), [0.0, 3.0]);
+            assert!((found - t).abs() < 1e-9 && distance < 1e-9, "{t}: {found}");
         }
     }
 

@@ -178,7 +178,6 @@ fn knot_vector(
         all.resize(all.len() + time, knot);
     }
     let read = Knots { degree: order - 1, knots: all };
-    // Possible without clamping only.
     let [from, to] = read.domain();
-    if from < to { Ok(read) } else { Err(bad("the knots span no interval")) }
+    if from < to && (to - from).is_finite() { Ok(read) } else { Err(bad("the knots span no interval")) }
 }
