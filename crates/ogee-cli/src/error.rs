@@ -120,10 +120,8 @@ impl Finding {
 pub(crate) struct Failure {
     /// The exit code.
     pub(crate) exit: Exit,
-    /// What is said in one line.
-    pub(crate) first: Finding,
-    /// What else is wrong, at most [`Failure::MOST_OTHERS`].
-    pub(crate) others: Vec<Finding>,
+    /// What is wrong, the first of it first; never empty, at most one and [`Failure::MOST_OTHERS`].
+    findings: Vec<Finding>,
     /// How many more there are.
     pub(crate) unlisted: usize,
     /// Nobody is there to read it: the pipe was closed.
@@ -136,7 +134,7 @@ impl Failure {
 
     /// A failure with one finding.
     pub(crate) fn new(exit: Exit, first: Finding) -> Failure {
-        Failure { exit, first, others: Vec::new(), unlisted: 0, silent: false }
+        Failure { exit, findings: vec![first], unlisted: 0, silent: false }
     }
 
     /// Something was typed that makes no sense.
@@ -146,13 +144,21 @@ impl Failure {
     }
 
     /// The input is refused for all these reasons, of which there is at least one, and `unlisted` more.
-    pub(crate) fn refused(findings: Vec<Finding>, unlisted: usize) -> Failure {
-        let mut findings = findings.into_iter();
-        let nothing = || Finding { code: "refused", message: "refused".into(), location: Where::default() };
-        let mut failure = Failure::new(Exit::Input, findings.next().unwrap_or_else(nothing));
-        failure.others = findings.by_ref().take(Failure::MOST_OTHERS).collect();
-        failure.unlisted = unlisted + findings.count();
-        failure
+    pub(crate) fn refused(mut findings: Vec<Finding>, unlisted: usize) -> Failure {
+        let kept = findings.len().min(1 + Failure::MOST_OTHERS);
+        let unlisted = unlisted + findings.len() - kept;
+        findings.truncate(kept);
+        Failure { exit: Exit::Input, findings, unlisted, silent: false }
+    }
+
+    /// What is said in one line.
+    pub(crate) fn first(&self) -> &Finding {
+        &self.findings[0]
+    }
+
+    /// What else is wrong.
+    pub(crate) fn others(&self) -> &[Finding] {
+        &self.findings[1..]
     }
 
     /// The input cannot be read.
@@ -197,7 +203,7 @@ mod tests {
     fn twenty_others_are_listed_and_the_rest_is_counted() {
         let findings = (0..30).map(|i| Finding::in_file("x", i.to_string(), "a")).collect();
         let failure = Failure::refused(findings, 5);
-        assert_eq!((failure.others.len(), failure.unlisted), (20, 14));
+        assert_eq!((failure.others().len(), failure.unlisted), (20, 14));
     }
 
     #[test]

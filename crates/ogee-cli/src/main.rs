@@ -10,6 +10,7 @@
 //! | `error` | failures, with their place and exit code |
 //! | `report` | figures as text and as JSON |
 //! | `progress` | a spinner for long work |
+//! | `timestamp` | the time that is written into files |
 //! | `system` | what the machine has and what was used of it |
 
 mod arguments;
@@ -21,6 +22,7 @@ mod output;
 mod progress;
 mod report;
 mod system;
+mod timestamp;
 
 use std::ffi::OsString;
 use std::process::ExitCode;

@@ -109,8 +109,8 @@ impl Console {
     /// Prints what is wrong, for people.
     pub(crate) fn refusal(&self, failure: &Failure) {
         let prefix = if failure.exit == Exit::Usage { "error: " } else { "" };
-        let mut text = self.styled(&format!("{prefix}{}", failure.first.line()), RED) + "\n";
-        text.extend(failure.others.iter().map(|other| other.line() + "\n"));
+        let mut text = self.styled(&format!("{prefix}{}", failure.first().line()), RED) + "\n";
+        text.extend(failure.others().iter().map(|other| other.line() + "\n"));
         if failure.unlisted > 0 {
             text += &format!("and {} more\n", failure.unlisted);
         }
@@ -152,7 +152,7 @@ struct Refused<'a> {
 /// Prints a failure for programs.
 pub(crate) fn print_error(failure: &Failure) {
     let more = (failure.unlisted > 0).then_some(failure.unlisted);
-    let error = Refused { first: &failure.first, others: &failure.others, more };
+    let error = Refused { first: failure.first(), others: failure.others(), more };
     // The exit code says it as well.
     let _ = print(&Refusal { error });
 }

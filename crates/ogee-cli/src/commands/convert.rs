@@ -17,6 +17,7 @@ use crate::error::{Exit, Failure, Finding};
 use crate::names::{Format, METHODS, SCHEMAS, UNITS, UP_AXES, formats};
 use crate::output::{Counter, Destination};
 use crate::report::{Console, Table, bytes, count, figure};
+use crate::timestamp;
 
 /// Convert a cage to solids and sheets of smooth NURBS
 #[derive(Debug, Args)]
@@ -124,7 +125,7 @@ impl Convert {
     pub(crate) fn run(&self, console: &Console) -> Result<ExitCode, Failure> {
         let destination = self.output.destination(console.json)?;
         let format = PartFormat::of(self.output_format, &self.output.output).map_err(Failure::usage)?;
-        let timestamp = timestamp()?;
+        let timestamp = timestamp::from_environment()?;
         let progress = console.progress();
         progress.step("reading");
         let cage = self.cage.read()?;
@@ -228,16 +229,16 @@ impl Convert {
 
 /// What a refused conversion means: a bad cage, a wrong level, or a wish that was not fulfilled.
 fn refusal(cage: &Cage, error: &ConvertError) -> Failure {
-    let failure = match error {
+    let mut failure = match error {
         ConvertError::Topology(error) => return cage.refused(&error.defects),
         _ => cage.failure(error.code(), error.to_string()),
     };
-    let exit = match error {
+    failure.exit = match error {
         ConvertError::Deviation { .. } => Exit::Check,
         ConvertError::LevelTooHigh { .. } | ConvertError::Pccm(PccmError::LevelTooLow { .. }) => Exit::Usage,
         _ => Exit::Input,
     };
-    Failure { exit, ..failure }
+    failure
 }
 
 fn table(report: &Report<'_>, verbose: bool) -> Table {
@@ -274,52 +275,4 @@ fn table(report: &Report<'_>, verbose: bool) -> Table {
     table.row("seconds", format!("{total:.3} (read {read:.3}, convert {convert:.3}, write {write:.3})"));
     table.row("file", bytes(report.file_bytes));
     table
-}
-
-/// The last second of the year 9999.
-const LAST_SECOND: u64 = 253_402_300_799;
-
-/// The time for the header: that of `SOURCE_DATE_EPOCH`, so that equal cages give equal files.
-fn timestamp() -> Result<String, Failure> {
-    let Some(given) = std::env::var_os("SOURCE_DATE_EPOCH") else { return Ok(iso_8601(0)) };
-    let seconds = given.to_str().and_then(|text| text.trim().parse::<u64>().ok());
-    match seconds.filter(|&seconds| seconds <= LAST_SECOND) {
-        Some(seconds) => Ok(iso_8601(seconds)),
-        None => Err(Failure::usage("SOURCE_DATE_EPOCH is not a number of seconds since 1970")),
-    }
-}
-
-/// Seconds since 1970 as a date and time of UTC.
-fn iso_8601(seconds: u64) -> String {
-    let (mut days, second) = (seconds / 86_400, seconds % 86_400);
-    let is_leap = |year: u64| year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
-    let mut year = 1970;
-    while days >= 365 + u64::from(is_leap(year)) {
-        days -= 365 + u64::from(is_leap(year));
-        year += 1;
-    }
-    let february = 28 + u64::from(is_leap(year));
-    let mut month = 1;
-    for length in [31, february, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31] {
-        if days < length {
-            break;
-        }
-        days -= length;
-        month += 1;
-    }
-    let (hour, minute, second) = (second / 3600, second / 60 % 60, second % 60);
-    format!("{year:04}-{month:02}-{:02}T{hour:02}:{minute:02}:{second:02}", days + 1)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn seconds_are_dates() {
-        assert_eq!(iso_8601(0), "1970-01-01T00:00:00");
-        assert_eq!(iso_8601(951_827_696), "2000-02-29T12:34:56");
-        assert_eq!(iso_8601(1_735_689_599), "2024-12-31T23:59:59");
-        assert_eq!(iso_8601(LAST_SECOND), "9999-12-31T23:59:59");
-    }
 }
