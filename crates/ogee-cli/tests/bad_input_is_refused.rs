@@ -47,7 +47,7 @@ fn cases() -> Vec<Bad> {
         bad("range.obj", with("f 1 2 99"), "missing_vertex", ":15: face 6 uses vertex 98, the file has 8"),
         bad("zero.obj", with("f 1 2 0"), "missing_vertex", ":15: face 6"),
         bad("back.obj", with("f 1 2 -99"), "missing_vertex", ":15: face 6"),
-        bad("repeated.obj", with("f 1 2 3 2"), "repeated_vertex", ":15: face 6 names vertex 1"),
+        bad("repeated.obj", with("f 1 2 3 2"), "repeated_vertex", ":15: face 6 uses vertex 1 more than once"),
         bad("two.obj", with("f 1 2"), "face_too_small", ":15: face 6 has 2 corners"),
         bad(
             "three.obj",

@@ -45,7 +45,7 @@ fn convert_reports_and_names() {
         ("part.json", "--pack"),
         ("first.step", "--method pccm-first"),
         ("quintic.step", "--method bi5"),
-        ("near.step", "--max-deviation 0.01"),
+        ("near.step", "--max-deviation 1e-4"),
         ("deep.step", "--level 3"),
     ] {
         let report = folder.ogee(&format!("convert --json cube.obj -o {output} {options}")).expect(0).json();
@@ -60,8 +60,8 @@ fn convert_reports_and_names() {
     let text = String::from_utf8(folder.read("part.step")).unwrap();
     assert!(text.contains("PRODUCT('Lid'") && text.contains("AP242") && text.contains("INCH"), "{text}");
     assert!(String::from_utf8(folder.read("part.STP")).unwrap().contains("PRODUCT('part'"));
-    let near = folder.ogee("convert --json cube.obj -o near.step --max-deviation 0.01").json();
-    assert!(near["max_deviation"].as_f64().unwrap() < 0.01 && near["level"].as_u64().unwrap() > 2);
+    let near = folder.ogee("convert --json cube.obj -o near.step --max-deviation 1e-4").json();
+    assert!(near["max_deviation"].as_f64().unwrap() < 1e-4 && near["level"].as_u64().unwrap() > 2);
 }
 
 #[test]

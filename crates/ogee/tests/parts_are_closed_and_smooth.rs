@@ -151,3 +151,12 @@ fn hollows_and_directions_are_told_apart() {
     }
     assert_eq!(to_part(&two, &Options::default()).unwrap().report.solids, 2);
 }
+
+#[test]
+fn memory_is_a_limit() {
+    let options = |memory| Options { level: Some(6), memory: Some(memory), ..Options::default() };
+    let error = to_part(&shapes::cube(), &options(1 << 20)).unwrap_err();
+    assert_eq!(error.code(), "too_deep");
+    assert!(error.to_string().ends_with("at most 4 levels fit"), "{error}");
+    assert!(to_part(&shapes::cube(), &options(1 << 24)).is_ok());
+}

@@ -17,7 +17,7 @@ use crate::error::{Exit, Failure, Finding};
 use crate::names::{Format, METHODS, SCHEMAS, UNITS, UP_AXES, formats};
 use crate::output::{Counter, Destination};
 use crate::report::{Console, Table, bytes, count, figure};
-use crate::timestamp;
+use crate::{system, timestamp};
 
 /// Convert a cage to solids and sheets of smooth NURBS
 #[derive(Debug, Args)]
@@ -33,7 +33,7 @@ pub(crate) struct Convert {
     #[arg(long, default_value = "pccm", value_parser = METHODS)]
     method: Method,
     /// Raise the level until patches and limit surface differ by less than this, in the unit of the file
-    #[arg(long, value_name = "D", value_parser = length)]
+    #[arg(long, value_name = "D", value_parser = length, allow_negative_numbers = true)]
     max_deviation: Option<f64>,
     /// Steps of refinement before the conversion [default: the least that is right for the cage]
     #[arg(short, long, value_name = "L")]
@@ -159,6 +159,7 @@ impl Convert {
             max_deviation: self.max_deviation,
             packing: if pack { Packing::Packed } else { Packing::Unpacked },
             up: self.up_axis.unwrap_or_default(),
+            memory: system::available_memory(),
         }
     }
 

@@ -28,7 +28,7 @@ pub(crate) struct Refine {
     #[arg(long, value_name = "FORMAT", value_parser = formats::<MeshFormat>())]
     output_format: Option<MeshFormat>,
     /// Steps of refinement; with 0 the cage's own polygons are written
-    #[arg(short, long, value_name = "N")]
+    #[arg(short, long, value_name = "N", allow_negative_numbers = true)]
     level: u32,
     /// Move the vertices to the limit surface, and write its normals where the format has them
     #[arg(long)]
@@ -162,8 +162,8 @@ impl Refine {
     }
 }
 
-/// The last level with its connectivity, and limits beside points, cost three times what a plain mesh does.
-const LIMIT_COSTS: u64 = 3;
+/// The last level with its connectivity, and limits beside points, cost four times what a plain mesh does.
+const LIMIT_COSTS: u64 = 4;
 
 /// The cage's own polygons, without those that are no part of the surface.
 fn visible(mesh: &ControlMesh, level: &Level) -> Fine {
