@@ -239,7 +239,7 @@ enum Kind {
 }
 
 impl<'a> Converted<'a> {
-    fn new(source: &'a Source, options: &Options, level: u32) -> Result<Converted<'a>, ConvertError> {
+    fn new(source: &'a Source, method: Method, level: u32) -> Result<Converted<'a>, ConvertError> {
         use std::borrow::Cow;
         let layer = match method {
             Method::Pccm => Layer::Second,
