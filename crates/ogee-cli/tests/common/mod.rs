@@ -1,4 +1,5 @@
 //! Runs the command in a folder of its own.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![allow(dead_code, reason = "each file of claims uses some of it")]
 
 use std::fs;
