@@ -1,3 +1,54 @@
-//! The `ogee` command.
+//! The `ogee` command: Catmull-Clark cages to CAD.
+//!
+//! | file | holds |
+//! | --- | --- |
+//! | `arguments` | what can be typed |
+//! | `names` | values by name, and what this build does not have |
+//! | `commands/*` | one file per command |
+//! | `cage` | opening and reading a cage |
+//! | `output` | whole files or none |
+//! | `error` | failures, with their place and exit code |
+//! | `report` | figures as text and as JSON |
+//! | `progress` | a spinner for long work |
+//! | `timestamp` | the time that is written into files |
+//! | `system` | what the machine has and what was used of it |
 
-fn main() {}
+mod arguments;
+mod cage;
+mod commands;
+mod error;
+mod names;
+mod output;
+mod progress;
+mod report;
+mod system;
+mod timestamp;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use arguments::Arguments;
+use error::Failure;
+use report::Console;
+
+fn main() -> ExitCode {
+    let given: Vec<OsString> = std::env::args_os().collect();
+    let arguments = match arguments::parse(&given) {
+        Ok(arguments) => arguments,
+        Err(stop) => return stop.finish(&given),
+    };
+    let console = Console::new(&arguments.common);
+    match run(&arguments, &console) {
+        Ok(code) => code,
+        Err(failure) => console.fail(&failure),
+    }
+}
+
+fn run(arguments: &Arguments, console: &Console) -> Result<ExitCode, Failure> {
+    output::remove_when_interrupted();
+    if let Some(threads) = arguments.common.threads {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads as usize);
+        pool.build_global().map_err(|error| Failure::usage(format!("--threads {threads}: {error}")))?;
+    }
+    commands::run(&arguments.command, console)
+}

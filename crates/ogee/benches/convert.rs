@@ -1,4 +1,5 @@
 //! Cage to part, figures included: `cargo bench -p ogee --bench convert` prints cage faces a second.
+#![allow(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
 
 use divan::Bencher;
 use divan::counter::ItemsCount;

@@ -1,5 +1,6 @@
 //! Refinement of a 100 000-quad cage by three levels: from the face list in memory to points and quads of the last
 //! level, adjacency included. `cargo bench -p ogee --bench refine` prints output faces a second.
+#![allow(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
 
 use divan::Bencher;
 use divan::counter::ItemsCount;

@@ -17,8 +17,8 @@ pub use limit::{LimitVertex, limit_vertices};
 pub use math::{Grid, Interpolate, Vec3};
 pub use mesh::{
     Boundary, ControlMesh, Corner, Crease, Creasing, Defect, EdgeId, FaceId, FaceList, FaceVarying,
-    FaceVaryingRule, HalfedgeId, Note, Place, Scheme, Sharpness, Topology, TopologyError, Valence, VertexId,
-    shapes,
+    FaceVaryingRule, HalfedgeId, Note, Place, Scheme, Sharpness, Statistics, Topology, TopologyError,
+    Valence, VertexId, shapes,
 };
 pub use refine::{FineMesh, Refinement, Step, TooDeep};
 pub use rules::{EdgeRule, Level, Sector, VertexMask, VertexRule};

@@ -1,4 +1,9 @@
 //! Chart sizes and coefficient counts of `testdata/pccm/packing.json`, and packed surfaces against those of each quad.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test fails by panicking, and says what it saw"
+)]
 
 mod golden;
 

@@ -1,5 +1,10 @@
 //! What a part promises: closed where the cage is, no gaps, tangent planes shared, volume and deviation as measured by
 //! the reference implementation.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test fails by panicking, and says what it saw"
+)]
 
 mod golden;
 

@@ -111,7 +111,7 @@ fn linear_face_varying_rules_hold_what_they_name() {
     // Two charts side by side on a 2 x 2 grid: the left and the right column have values of their own.
     let moved = |rule: FaceVaryingRule| {
         let mut mesh = ogee::shapes::grid(2, 2);
-        let of = |v: u32, face: &[u32]| if face[0] % 3 == 0 { v } else { v + 9 };
+        let of = |v: u32, face: &[u32]| if face[0].is_multiple_of(3) { v } else { v + 9 };
         let indices = mesh
             .faces
             .iter()

@@ -115,7 +115,7 @@ fn extraordinary_vertices_of_the_hand_touch() {
     assert_eq!(valences(&hand), (3..=6).collect());
     let t = Topology::new(&hand.mesh).unwrap();
     let is_six = |v: VertexId| t.valence(v) == Valence::Interior(6);
-    let touching = t.edge_halfedges().into_iter().filter(|&h| is_six(t.origin(h)) && is_six(t.target(h)));
+    let touching = t.edge_halfedges().filter(|&h| is_six(t.origin(h)) && is_six(t.target(h)));
     // Three between fingers, four along their roots in front and behind.
     assert_eq!(touching.count(), 7);
 }

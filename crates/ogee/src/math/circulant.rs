@@ -18,7 +18,7 @@ pub(crate) fn first_mode(ring: &[Vec3]) -> Vec<Vec3> {
 
 /// `(-1)^i`.
 pub(crate) fn sign(i: usize) -> f64 {
-    if i % 2 == 0 { 1.0 } else { -1.0 }
+    if i.is_multiple_of(2) { 1.0 } else { -1.0 }
 }
 
 /// The mean of `(-1)^i x_i`.
@@ -38,7 +38,7 @@ pub(crate) fn solve_pair_sums(right: &[Vec3]) -> Vec<Vec3> {
     for i in 1..n {
         x[i] = 2.0 * right[i] - x[i - 1];
     }
-    if n % 2 == 0 {
+    if n.is_multiple_of(2) {
         let mean = alternating_mean(&x);
         for (i, x) in x.iter_mut().enumerate() {
             *x -= sign(i) * mean;
@@ -84,7 +84,7 @@ mod tests {
     fn pair_sums_are_met() {
         for n in 3..12 {
             let mut right = ring(n);
-            if n % 2 == 0 {
+            if n.is_multiple_of(2) {
                 let mean = alternating_mean(&right);
                 for (i, r) in right.iter_mut().enumerate() {
                     *r -= sign(i) * mean;

@@ -4,6 +4,7 @@ mod check;
 mod control_mesh;
 mod ids;
 pub mod shapes;
+mod statistics;
 pub(crate) mod topology;
 
 pub use check::{Defect, Note, Place, TopologyError, check, notes};
@@ -12,4 +13,5 @@ pub use control_mesh::{
     Sharpness,
 };
 pub use ids::{EdgeId, FaceId, HalfedgeId, VertexId};
+pub use statistics::{Component, Statistics};
 pub use topology::{Topology, Valence};

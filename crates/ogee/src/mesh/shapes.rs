@@ -51,7 +51,8 @@ pub fn torus(around: u32, across: u32) -> ControlMesh {
 pub fn studded_torus(around: u32, across: u32, spacing: u32) -> ControlMesh {
     let smooth = torus(around, across);
     let mut mesh = ControlMesh { points: smooth.points, ..ControlMesh::default() };
-    let drawn = |f: usize| (f as u32 / across) % spacing == 0 && (f as u32 % across) % spacing == 0;
+    let drawn =
+        |f: usize| (f as u32 / across).is_multiple_of(spacing) && (f as u32 % across).is_multiple_of(spacing);
     for (f, face) in smooth.faces.iter().enumerate() {
         if !drawn(f) {
             mesh.faces.push(face);

@@ -128,7 +128,7 @@ fn balance(base: &Level, quartics: &mut [[Vec3; 5]]) {
     let even: Vec<Vec<usize>> = (0..topology.vertex_count() as u32)
         .map(VertexId)
         .map(|v| topology.ring(v).map(|h| topology.edge(h).index()).collect::<Vec<_>>())
-        .filter(|ring| ring.len() >= 6 && ring.len() % 2 == 0)
+        .filter(|ring| ring.len() >= 6 && ring.len().is_multiple_of(2))
         .collect();
     let residual = |middles: &dyn Fn(usize) -> Vec3| -> Vec<Vec3> {
         let sums = even.iter().map(|ring| {
@@ -200,7 +200,7 @@ fn twists(base: &Level, v: VertexId, quartics: &[[Vec3; 5]], start: &[Grid<Vec3>
     let right: Vec<Vec3> =
         ring.iter().map(|&h| get(nets, h, 1, 0) + cross_sum(base, quartics, h)[1] / 10.0).collect();
     let mut twists = solve_pair_sums(&right);
-    if ring.len() % 2 == 0 {
+    if ring.len().is_multiple_of(2) {
         let kernel = alternating_mean(&ring.iter().map(|&h| get(start, h, 1, 1)).collect::<Vec<_>>());
         for (i, twist) in twists.iter_mut().enumerate() {
             *twist += sign(i) * kernel;

@@ -123,10 +123,10 @@ impl<'a> Pieces<'a> {
             // One polynomial over the whole coarse cell, however many knots of the chart cross it.
             if self.is_untouched(placed, level, a, b) {
                 let scaled = |arguments: [f64; 3]| arguments.map(|knot| knot / size as f64);
-                return self.from_nodes(placed, level, (a, b), scaled(args_u), scaled(args_v));
+                return self.by_nodes(placed, level, (a, b), scaled(args_u), scaled(args_v));
             }
         }
-        self.from_patch(placed, (cell_u, cell_v), args_u, args_v)
+        self.by_patch(placed, (cell_u, cell_v), args_u, args_v)
     }
 
     /// True if cell `(a, b)` of mesh level `level` is one bicubic piece that smoothing left alone.
@@ -145,14 +145,7 @@ impl<'a> Pieces<'a> {
     }
 
     /// From the sixteen nodes around a cell of a mesh level: they are the coefficients of the uniform bicubic there.
-    fn from_nodes(
-        &self,
-        placed: Placed,
-        level: u32,
-        (a, b): (usize, usize),
-        u: [f64; 3],
-        v: [f64; 3],
-    ) -> Vec3 {
+    fn by_nodes(&self, placed: Placed, level: u32, (a, b): (usize, usize), u: [f64; 3], v: [f64; 3]) -> Vec3 {
         let net = &self.nets[level as usize][placed.quad as usize];
         let last = net.rows() - 1;
         let knots = |cell: usize| std::array::from_fn(|k| cell as f64 + k as f64 - 2.0);
@@ -162,7 +155,7 @@ impl<'a> Pieces<'a> {
     }
 
     /// From the piece of the patch on one cell.
-    fn from_patch(&self, placed: Placed, (a, b): (usize, usize), u: [f64; 3], v: [f64; 3]) -> Vec3 {
+    fn by_patch(&self, placed: Placed, (a, b): (usize, usize), u: [f64; 3], v: [f64; 3]) -> Vec3 {
         let net = &self.patches.nets[placed.quad as usize];
         let knots = &self.patches.knots;
         let last = net.rows() - 1;

@@ -77,7 +77,7 @@ impl Fan {
 
     /// True if an alternating part around the fan cannot be met.
     pub(crate) fn is_even(&self) -> bool {
-        self.closed && self.halfedges.len() % 2 == 0
+        self.closed && self.halfedges.len().is_multiple_of(2)
     }
 }
 

@@ -112,11 +112,11 @@ pub fn least_level(base: &Level, layer: Layer) -> Result<Requirement, PccmError>
 fn refuse(base: &Level) -> Result<(), PccmError> {
     let topology = base.topology();
     refuse_valence_two(base)?;
-    for (h, sharpness) in base.semi_sharp_edges().filter(|&(_, s)| s > SHARPEST) {
+    if let Some((h, sharpness)) = base.semi_sharp_edges().find(|&(_, s)| s > SHARPEST) {
         let place = format!("edge {}-{}", topology.origin(h), topology.target(h));
         return Err(PccmError::TooSharp { place, sharpness });
     }
-    for (v, sharpness) in base.semi_sharp_vertices().filter(|&(_, s)| s > SHARPEST) {
+    if let Some((v, sharpness)) = base.semi_sharp_vertices().find(|&(_, s)| s > SHARPEST) {
         return Err(PccmError::TooSharp { place: format!("vertex {v}"), sharpness });
     }
     Ok(())

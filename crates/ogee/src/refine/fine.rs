@@ -87,7 +87,7 @@ impl Level {
         let halfedges = self.topology().halfedge_count() as u128;
         let faces = |depth: u32| match depth {
             0 => self.topology().face_count() as u128,
-            _ => halfedges << (2 * (depth - 1)).min(90),
+            _ => halfedges << (2 * (depth.min(46) - 1)),
         };
         // Ids of halfedges are below 2^32 - 1 on every level that has halfedges, so four a face on the last.
         let fits = |depth: u32| {
@@ -96,7 +96,7 @@ impl Level {
         if depth == 0 || fits(depth) {
             return Ok(());
         }
-        let deepest = (0..depth).rev().find(|&shallower| fits(shallower)).unwrap_or(0);
+        let deepest = (0..depth.min(46)).rev().find(|&shallower| fits(shallower)).unwrap_or(0);
         Err(TooDeep { depth, faces: faces(depth), deepest })
     }
 }

@@ -1,4 +1,5 @@
 //! Reads the golden data under `testdata/`; fields as in the notes of `testdata/SOURCES.md`.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![allow(dead_code, unreachable_pub, reason = "each claim uses a part of it")]
 
 use ogee::{

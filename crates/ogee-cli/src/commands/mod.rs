@@ -1,0 +1,36 @@
+//! The commands, one to a file.
+
+pub(crate) mod check;
+pub(crate) mod completions;
+pub(crate) mod convert;
+pub(crate) mod info;
+mod man;
+pub(crate) mod refine;
+
+use std::process::ExitCode;
+
+use crate::arguments::Command;
+use crate::error::Failure;
+use crate::report::Console;
+
+/// Runs a command.
+pub(crate) fn run(command: &Command, console: &Console) -> Result<ExitCode, Failure> {
+    match command {
+        Command::Info(info) => info.run(console),
+        Command::Refine(refine) => refine.run(console),
+        Command::Convert(convert) => convert.run(console),
+        Command::Check(check) => check.run(console),
+        Command::Completions(completions) => completions.run(console),
+        Command::Man => man::run(console),
+    }
+}
+
+/// For commands whose data is text on stdout.
+fn print_text(text: &[u8], console: &Console) -> Result<ExitCode, Failure> {
+    use std::io::Write;
+    if console.json {
+        return Err(Failure::usage("this command prints text on stdout and has no --json"));
+    }
+    crate::output::Destination::Stdout.write(|out| out.write_all(text))?;
+    Ok(ExitCode::SUCCESS)
+}
