@@ -105,6 +105,27 @@ impl Topology {
         topology
     }
 
+    /// The same faces over other vertices, cut along some edges.
+    pub(crate) fn with_seams(
+        &self,
+        origin: Vec<u32>,
+        vertices: usize,
+        seam: impl Fn(HalfedgeId) -> bool,
+    ) -> Topology {
+        let twin = |h: usize| if seam(HalfedgeId(h as u32)) { NONE } else { self.twin[h] };
+        let mut topology = Topology {
+            origin,
+            twin: (0..self.twin.len()).map(twin).collect(),
+            edge: Vec::new(),
+            first_side: Vec::new(),
+            outgoing: vec![NONE; vertices],
+            layout: self.layout.clone(),
+        };
+        topology.number_edges();
+        topology.choose_outgoing();
+        topology
+    }
+
     /// All arrays but `outgoing`.
     fn unchecked(faces: &FaceList, vertices: usize, pairs: Pairing) -> Topology {
         let layout = if faces.iter().all(|face| face.len() == 4) {

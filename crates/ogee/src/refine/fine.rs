@@ -1,14 +1,14 @@
 //! `FineMesh`: the finest level as plain quads, for files and pictures.
 
-use crate::math::{Vec3, par};
+use crate::math::{Interpolate, Vec3, par};
 use crate::mesh::{FaceId, HalfedgeId};
 use crate::rules::Level;
 
-/// A refined mesh as points and quads; its last level keeps no connectivity.
+/// A refined mesh as points (or other data) and quads; its last level keeps no connectivity.
 #[derive(Clone, Debug, PartialEq)]
-pub struct FineMesh {
+pub struct FineMesh<T = Vec3> {
     /// Points of the finest level.
-    pub points: Vec<Vec3>,
+    pub points: Vec<T>,
     /// The quads, in the order of the level's faces; hidden ones are left out.
     pub faces: Vec<[u32; 4]>,
 }
@@ -34,7 +34,12 @@ impl Level {
     ///
     /// # Panics
     /// If `depth` is 0 (a cage is no mesh of quads), or there are fewer points than vertices.
-    pub fn fine_mesh(&self, points: &[Vec3], depth: u32, memory: u64) -> Result<FineMesh, TooDeep> {
+    pub fn fine_mesh<T: Interpolate>(
+        &self,
+        points: &[T],
+        depth: u32,
+        memory: u64,
+    ) -> Result<FineMesh<T>, TooDeep> {
         assert!(depth > 0, "a fine mesh is at least one step away");
         self.check_depth(depth, memory)?;
         if depth == 1 {
@@ -47,7 +52,7 @@ impl Level {
         Ok(level.last_step(&points))
     }
 
-    fn last_step(&self, points: &[Vec3]) -> FineMesh {
+    fn last_step<T: Interpolate>(&self, points: &[T]) -> FineMesh<T> {
         let topology = self.topology();
         let fine_points = self.child_points(points);
         let mut faces =

@@ -1,6 +1,7 @@
 //! Rules: which mask makes the child of an element, and the level they stand on.
 
 mod classify;
+mod face_varying;
 mod inherit;
 mod level;
 pub(crate) mod masks;
