@@ -2,6 +2,33 @@
 //!
 //! Readers take bytes and writers take anything that can be written to: which file is opened, and under
 //! what name a result appears, is the caller's business.
+//!
+//! ```
+//! use ogee::convert;
+//! use ogee_formats::{CageFormat, read_cage, step};
+//!
+//! // A cage in, here from a text; a file's bytes do as well.
+//! let text = b"v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+//! let mesh = read_cage(text, CageFormat::Obj)?.mesh;
+//!
+//! // A solid out, and read back by a lint that trusts nothing.
+//! let part = convert::to_part(&mesh, &convert::Options::default())?;
+//! let mut file = Vec::new();
+//! step::write(&part, &step::Options::default(), &mut file)?;
+//! let found = step::check(&file);
+//! assert!(found.is_clean() && found.counts.solids == 1);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! | files | read with | written with |
+//! | --- | --- | --- |
+//! | cages: OBJ with subdivision tags, OFF, PLY, JSON | [`read_cage`] | [`obj::write_cage`], [`json::write_cage`] |
+//! | refined meshes: OBJ, PLY, OFF, STL, GLB, JSON | | [`write_mesh`] |
+//! | parts: STEP | checked with [`step::check`] | [`step::write`] |
+//! | parts: patches in JSON | [`patches::read`] | [`patches::write`] |
+//! | parts: BezierView | | [`bv::write`] |
+//!
+//! What each of them accepts and writes is described in `docs/formats.md` of the repository.
 
 mod builder;
 pub mod bv;
