@@ -37,6 +37,9 @@ pub(super) fn classify_vertices(level: &Level) -> Sparse<VertexRule> {
 }
 
 fn vertex_rule(level: &Level, v: VertexId) -> VertexRule {
+    if level.topology.outgoing(v).is_none() {
+        return VertexRule::Of(VertexMask::Corner);
+    }
     let own = level.vertex_sharpness(v);
     // Neighbour, sharpness now and one level on, of every edge that is sharp now.
     let mut sharp: Vec<(VertexId, f64, f64)> = Vec::new();
