@@ -33,9 +33,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     std::fs::write(&out, text)?;
 
     let report = &part.report;
-    println!("{} cage faces, {} patches, {} faces written", report.cage_faces, report.patches, report.faces_written);
+    println!(
+        "{} cage faces, {} patches, {} faces written",
+        report.cage_faces, report.patches, report.faces_written
+    );
     println!("{} solids, volume {:?}", report.solids, report.volume);
     println!("largest angle over smooth edges {:.1e} degrees", report.max_normal_angle_deg);
+    println!("largest gap between two sides of an edge {:.1e}", report.max_gap);
     println!("largest deviation {:.1e} of the size", report.max_deviation_relative);
     Ok(())
 }

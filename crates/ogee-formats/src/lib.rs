@@ -51,3 +51,8 @@ mod triangles;
 pub use cage::{CageFile, CageFormat, read_cage};
 pub use error::{Fault, ReadError, Warning};
 pub use mesh::{Faces, MeshFormat, MeshView, Placement, write_mesh};
+
+/// The front page of the repository: its program is a test.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct FrontPage;
