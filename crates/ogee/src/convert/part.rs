@@ -79,7 +79,7 @@ pub struct Report {
     pub level: u32,
     /// Faces of the cage.
     pub cage_faces: usize,
-    /// Pieces before packing: one per quad that was converted.
+    /// Patches before packing: one per visible quad that was converted.
     pub patches: usize,
     /// Faces in the part.
     pub faces_written: usize,
