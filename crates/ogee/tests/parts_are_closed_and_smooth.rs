@@ -151,3 +151,86 @@ fn hollows_and_directions_are_told_apart() {
     }
     assert_eq!(to_part(&two, &Options::default()).unwrap().report.solids, 2);
 }
+
+#[test]
+fn holes_and_boundaries_left_out_are_no_part_of_the_surface() {
+    let mut grid = shapes::grid(5, 5);
+    grid.scheme.boundary = ogee::Boundary::None;
+    let part = to_part(&grid, &Options::default()).unwrap();
+    check("boundary none", &grid, &part);
+    assert_eq!((part.report.patches, part.report.faces_written, part.report.shells), (9, 1, 1));
+    assert!(!part.report.closed && part.report.volume.is_none());
+    // One bicubic piece after another: exactly the middle of the plane.
+    assert!((part.report.area - 9.0).abs() < 1e-12);
+
+    let mut cube = shapes::cube();
+    cube.holes = vec![2];
+    let part = to_part(&cube, &Options::default()).unwrap();
+    check("cube with a hole", &cube, &part);
+    assert_eq!((part.report.faces_written, part.report.solids, part.report.smooth_edges), (5, 0, 8));
+    // The hole takes part in smoothing: the other five faces are those of the whole cube.
+    let whole = to_part(&shapes::cube(), &Options::default()).unwrap();
+    assert!((part.report.area - whole.report.area * 5.0 / 6.0).abs() < 1e-10);
+
+    cube.holes = (0..6).collect();
+    assert_eq!(to_part(&cube, &Options::default()).unwrap_err().code(), "no_surface");
+}
+
+#[test]
+fn two_shells_may_touch_in_a_vertex() {
+    // Two opposite corners of a grid of 3 x 3 without the middle and two more: faces 0, 4 and 8 touch in vertices.
+    let mut grid = shapes::grid(3, 3);
+    grid.holes = vec![1, 2, 3, 5, 6, 7];
+    let part = to_part(&grid, &Options { packing: Packing::Packed, ..Options::default() }).unwrap();
+    check("touching sheets", &grid, &part);
+    assert_eq!((part.report.shells, part.report.vertices), (3, 12));
+}
+
+#[test]
+fn tags_that_leave_no_tangent_plane_are_told() {
+    let mut cube = shapes::cube();
+    cube.corners = vec![ogee::Corner { vertex: 0, sharpness: ogee::Sharpness::Infinite }];
+    let part = to_part(&cube, &Options::default()).unwrap();
+    check("cone", &cube, &part);
+    assert!(part.report.notes.iter().any(|note| note.code == "cone_point"));
+    assert_eq!((part.report.smooth_edges, part.report.sharp_edges), (9, 3));
+}
+
+#[test]
+fn deviation_on_request_raises_the_level() {
+    let mesh = shapes::cube();
+    let at_once = to_part(&mesh, &Options::default()).unwrap().report;
+    let wanted = at_once.max_deviation / 20.0;
+    let raised =
+        to_part(&mesh, &Options { max_deviation: Some(wanted), ..Options::default() }).unwrap().report;
+    assert!(raised.max_deviation < wanted && raised.level > at_once.level);
+    let impossible =
+        to_part(&mesh, &Options { max_deviation: Some(1e-12), ..Options::default() }).unwrap_err();
+    assert_eq!(impossible.code(), "deviation");
+    for level in 2..=6 {
+        let part = to_part(&mesh, &Options { level: Some(level), ..Options::default() }).unwrap();
+        check(&format!("cube level {level}"), &mesh, &part);
+    }
+}
+
+#[test]
+fn what_has_no_rule_is_refused_by_name() {
+    let code = |mesh: &ControlMesh, options: &Options| to_part(mesh, options).unwrap_err().code();
+    let pillow = ControlMesh::new(
+        shapes::cube().points[..4].to_vec(),
+        [[0, 1, 3, 2], [2, 3, 1, 0]].into_iter().collect(),
+    );
+    assert_eq!(code(&pillow, &Options::default()), "valence_two");
+    let low = Options { level: Some(1), ..Options::default() };
+    assert_eq!(code(&shapes::cube(), &low), "level_too_low");
+    assert_eq!(code(&shapes::cube(), &Options { level: Some(7), ..Options::default() }), "level_too_high");
+    let mut sharp = shapes::cube();
+    let crease = ogee::Crease { vertices: [0, 1], sharpness: ogee::Sharpness::Finite(6.5) };
+    sharp.creases = vec![crease];
+    assert_eq!(code(&sharp, &Options::default()), "too_sharp");
+    assert_eq!(code(&sharp, &Options { method: Method::Bi5, ..Options::default() }), "sharp_edge");
+    assert_eq!(
+        code(&shapes::grid(2, 2), &Options { method: Method::Bi5, ..Options::default() }),
+        "sharp_edge"
+    );
+}

@@ -63,16 +63,22 @@ impl NurbsCurve {
     }
 }
 
-/// The polar form (blossom) of the polynomial of one span: de Boor's recursion with a different argument at each
-/// step. Where the arguments are consecutive knots it returns that coefficient, bit for bit.
+/// The polar form (blossom) of the polynomial of one span. Where the arguments are consecutive knots it returns that
+/// coefficient, bit for bit.
 pub(crate) fn polar(knots: &KnotVector, span: usize, points: &[Vec3], arguments: &[f64]) -> Vec3 {
     let degree = knots.degree();
     let mut work = [Vec3::ZERO; MAX_DEGREE + 1];
     work[..=degree].copy_from_slice(&points[span - degree..=span]);
+    polar_of(&knots.knots()[span + 1 - degree..=span + degree], &mut work[..=degree], arguments)
+}
+
+/// The same from the `2 degree` knots around the span and its `degree + 1` coefficients: de Boor's recursion with a
+/// different argument at each step.
+pub(crate) fn polar_of(knots: &[f64], work: &mut [Vec3], arguments: &[f64]) -> Vec3 {
+    let degree = work.len() - 1;
     for (step, &t) in arguments.iter().enumerate() {
         for k in (step + 1..=degree).rev() {
-            let low = knots.knots()[span + k - degree];
-            let high = knots.knots()[span + k - step];
+            let (low, high) = (knots[k - 1], knots[k - 1 + degree - step]);
             work[k] = work[k - 1].lerp(work[k], (t - low) / (high - low));
         }
     }

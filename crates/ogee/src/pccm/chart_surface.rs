@@ -8,7 +8,7 @@ use super::packing::{Chart, Placed};
 use super::{Cells, CornerClass, Layer, Patches, view};
 use crate::math::{Grid, Vec3, par};
 use crate::mesh::{FaceId, HalfedgeId};
-use crate::nurbs::curve::polar;
+use crate::nurbs::curve::polar_of;
 use crate::nurbs::{KnotVector, NurbsSurface};
 use crate::rules::Level;
 
@@ -120,10 +120,8 @@ impl<'a> Pieces<'a> {
         for level in self.settled[placed.quad as usize]..=self.patches.level {
             let size = m >> level;
             let (a, b) = (cell_u / size, cell_v / size);
-            let inside = |place: &Place, origin: usize, cell: usize| {
-                place.span[0] <= origin + cell * size && origin + (cell + 1) * size <= place.span[1]
-            };
-            if inside(u, origin_u, a) && inside(v, origin_v, b) && self.is_untouched(placed, level, a, b) {
+            // One polynomial over the whole coarse cell, however many knots of the chart cross it.
+            if self.is_untouched(placed, level, a, b) {
                 let scaled = |arguments: [f64; 3]| arguments.map(|knot| knot / size as f64);
                 return self.from_nodes(placed, level, (a, b), scaled(args_u), scaled(args_v));
             }
@@ -157,17 +155,10 @@ impl<'a> Pieces<'a> {
     ) -> Vec3 {
         let net = &self.nets[level as usize][placed.quad as usize];
         let last = net.rows() - 1;
-        let knots = |cell: usize| {
-            // Only the six knots around the span enter; the outermost are there to make the vector clamped in form.
-            (0..8).map(|k| cell as f64 + f64::from(k) - 3.0).collect::<Vec<f64>>()
-        };
-        let (knots_u, knots_v) = (knots(a), knots(b));
-        let mut column = [Vec3::ZERO; 4];
-        for (x, value) in column.iter_mut().enumerate() {
-            let row: [Vec3; 4] = std::array::from_fn(|y| net[view(placed.turn as usize, a + x, b + y, last)]);
-            *value = uniform_polar(&knots_v, row, v);
-        }
-        uniform_polar(&knots_u, column, u)
+        let knots = |cell: usize| std::array::from_fn(|k| cell as f64 + k as f64 - 2.0);
+        tensor_polar([&knots(a), &knots(b)], [u, v], |i, j| {
+            net[view(placed.turn as usize, a + i, b + j, last)]
+        })
     }
 
     /// From the piece of the patch on one cell.
@@ -175,23 +166,27 @@ impl<'a> Pieces<'a> {
         let net = &self.patches.nets[placed.quad as usize];
         let knots = &self.patches.knots;
         let last = net.rows() - 1;
-        let (span_u, span_v) = (knots.span(a as f64 + 0.5), knots.span(b as f64 + 0.5));
-        let mut column = vec![Vec3::ZERO; net.rows()];
-        let mut row = vec![Vec3::ZERO; net.rows()];
-        for i in span_u - 3..=span_u {
-            for j in span_v - 3..=span_v {
-                row[j] = net[view(placed.turn as usize, i, j, last)];
-            }
-            column[i] = polar(knots, span_v, &row, &v);
-        }
-        polar(knots, span_u, &column, &u)
+        let [span_u, span_v] = [a, b].map(|cell| knots.span(cell as f64 + 0.5));
+        let around = |span: usize| std::array::from_fn(|k| knots.knots()[span + k - 2]);
+        tensor_polar([&around(span_u), &around(span_v)], [u, v], |i, j| {
+            net[view(placed.turn as usize, span_u + i - 3, span_v + j - 3, last)]
+        })
     }
 }
 
-/// Where a coefficient is read: its inner knots, a span of its support next to the Greville abscissa, a cell in it.
+/// The polar form of a bicubic piece: six knots around its span and three arguments in each direction, and its sixteen
+/// coefficients.
+fn tensor_polar(knots: [&[f64; 6]; 2], arguments: [[f64; 3]; 2], at: impl Fn(usize, usize) -> Vec3) -> Vec3 {
+    let mut column: [Vec3; 4] = std::array::from_fn(|i| {
+        let mut row: [Vec3; 4] = std::array::from_fn(|j| at(i, j));
+        polar_of(knots[1], &mut row, &arguments[1])
+    });
+    polar_of(knots[0], &mut column, &arguments[0])
+}
+
+/// Where a coefficient is read: its inner knots, and a cell of its support next to the Greville abscissa.
 struct Place {
     arguments: [f64; 3],
-    span: [usize; 2],
     cell: usize,
 }
 
@@ -201,30 +196,13 @@ fn places(knots: &KnotVector) -> Vec<Place> {
         .map(|i| {
             let arguments = [values[i + 1], values[i + 2], values[i + 3]];
             let greville = arguments.iter().sum::<f64>() / 3.0;
-            let distance = |&s: &usize| {
-                let below = values[s] - greville;
-                let above = greville - values[s + 1];
-                below.max(above).max(0.0)
-            };
-            let nonempty = (i..=i + 3).filter(|&s| values[s] < values[s + 1]);
-            let s = nonempty.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(i);
-            let span = [values[s] as usize, values[s + 1] as usize];
-            let cell = (greville.floor() as usize).clamp(span[0], span[1] - 1);
-            Place { arguments, span, cell }
+            let distance = |&s: &usize| (values[s] - greville).max(greville - values[s + 1]).max(0.0);
+            let spans = (i..=i + 3).filter(|&s| values[s] < values[s + 1]);
+            let s = spans.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(i);
+            let cell = (greville.floor() as usize).clamp(values[s] as usize, values[s + 1] as usize - 1);
+            Place { arguments, cell }
         })
         .collect()
-}
-
-/// The polar form of one cell of a uniform cubic; `knots` are the eight around it, the cell between the fourth and
-/// the fifth.
-fn uniform_polar(knots: &[f64], mut work: [Vec3; 4], arguments: [f64; 3]) -> Vec3 {
-    for (step, t) in arguments.into_iter().enumerate() {
-        for k in (step + 1..4).rev() {
-            let (low, high) = (knots[k], knots[k + 3 - step]);
-            work[k] = work[k - 1].lerp(work[k], (t - low) / (high - low));
-        }
-    }
-    work[3]
 }
 
 /// For each quad the number of steps after which no finite sharpness is left at its corners.
