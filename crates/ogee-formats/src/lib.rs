@@ -2,6 +2,33 @@
 //!
 //! Readers take bytes and writers take anything that can be written to: which file is opened, and under
 //! what name a result appears, is the caller's business.
+//!
+//! ```
+//! use ogee::convert;
+//! use ogee_formats::{CageFormat, read_cage, step};
+//!
+//! // A cage in, here from a text; a file's bytes do as well.
+//! let text = b"v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+//! let mesh = read_cage(text, CageFormat::Obj)?.mesh;
+//!
+//! // A solid out, and read back by a lint that trusts nothing.
+//! let part = convert::to_part(&mesh, &convert::Options::default())?;
+//! let mut file = Vec::new();
+//! step::write(&part, &step::Options::default(), &mut file)?;
+//! let found = step::check(&file);
+//! assert!(found.is_clean() && found.counts.solids == 1);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! | files | read with | written with |
+//! | --- | --- | --- |
+//! | cages: OBJ with subdivision tags, OFF, PLY, JSON | [`read_cage`] | [`obj::write_cage`], [`json::write_cage`] |
+//! | refined meshes: OBJ, PLY, OFF, STL, GLB, JSON | | [`write_mesh`] |
+//! | parts: STEP | checked with [`step::check`] | [`step::write`] |
+//! | parts: patches in JSON | [`patches::read`] | [`patches::write`] |
+//! | parts: BezierView | | [`bv::write`] |
+//!
+//! What each of them accepts and writes is described in `docs/formats.md` of the repository.
 
 mod builder;
 pub mod bv;
@@ -24,3 +51,8 @@ mod triangles;
 pub use cage::{CageFile, CageFormat, read_cage};
 pub use error::{Fault, ReadError, Warning};
 pub use mesh::{Faces, MeshFormat, MeshView, Placement, write_mesh};
+
+/// The front page of the repository: its program is a test.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct FrontPage;

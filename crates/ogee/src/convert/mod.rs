@@ -50,7 +50,8 @@ pub struct Options {
     pub method: Method,
     /// Refinements before the conversion; `None` for the least that is right for the cage.
     pub level: Option<u32>,
-    /// Raise the level until the measured deviation from the limit surface is below this length.
+    /// Raise the level until the measured deviation from the limit surface is below this length. With a `level` given
+    /// nothing is raised: a larger deviation is then an error.
     pub max_deviation: Option<f64>,
     /// Join regular quads.
     pub packing: Packing,

@@ -79,7 +79,7 @@ pub struct Report {
     pub level: u32,
     /// Faces of the cage.
     pub cage_faces: usize,
-    /// Pieces before packing: one per quad that was converted.
+    /// Patches before packing: one per visible quad that was converted.
     pub patches: usize,
     /// Faces in the part.
     pub faces_written: usize,
@@ -103,7 +103,7 @@ pub struct Report {
     pub max_normal_angle_deg: f64,
     /// Largest distance between the two sides of a shared edge.
     pub max_gap: f64,
-    /// Largest distance of the patches from the limit surface.
+    /// Largest distance of sampled points of the limit surface from the patches.
     pub max_deviation: f64,
     /// The same, divided by the diagonal of the cage's bounding box.
     pub max_deviation_relative: f64,

@@ -2,7 +2,7 @@
 //!
 //! They hold where all faces at the vertex are quads and no finite sharpness is left. Halstead, Kass and DeRose (1993)
 //! and Biermann, Levin and Zorin (2000) have the smooth ones; the cross tangent on a boundary is ours, since the one
-//! commonly printed belongs to other boundary rules (`docs/methods/catmull_clark.md`).
+//! commonly printed belongs to other boundary rules (`docs/methods/catmull_clark.md`, Changes from the paper).
 
 use crate::math::Vec3;
 use std::f64::consts::{PI, TAU};

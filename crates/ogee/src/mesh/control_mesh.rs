@@ -40,7 +40,7 @@ pub struct FaceVarying {
     pub rule: FaceVaryingRule,
 }
 
-/// Which face-varying values are interpolated linearly, that is, never move (`evaluation` method page).
+/// Which face-varying values are interpolated linearly, that is, never move (`docs/methods/catmull_clark.md`, Theory).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FaceVaryingRule {
     /// None by rule.

@@ -1,4 +1,4 @@
-//! Polynomial B-spline curves and surfaces of any degree, and the shells and parts made of them.
+//! Polynomial B-spline curves and surfaces of any degree, and the shells made of them.
 
 pub(crate) mod basis;
 pub(crate) mod curve;

@@ -79,7 +79,7 @@ pub struct FaceAddress {
 }
 
 impl std::fmt::Display for FaceAddress {
-    /// `f12` or `f12.3`: the name of a face in STEP.
+    /// `f12`, or `f12.3` for a corner: the name of a face in STEP.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self.corner {
             None => write!(f, "f{}", self.face),

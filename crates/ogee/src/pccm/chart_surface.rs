@@ -2,7 +2,7 @@
 //!
 //! A coefficient is the polar form of any polynomial piece inside its support. Pieces come from the coarsest mesh level
 //! on which they are polynomial and untouched by smoothing, so that nothing is extrapolated far; next to irregular
-//! corners from the patches themselves.
+//! corners from the patches themselves. `docs/methods/packing.md`, Changes from the paper.
 
 use super::packing::{Chart, Placed};
 use super::{Cells, CornerClass, Layer, Patches, view};

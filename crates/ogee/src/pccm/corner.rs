@@ -9,7 +9,7 @@ use crate::math::{Grid, Vec3};
 use std::f64::consts::{PI, TAU};
 
 /// Below this opening angle, or this close to a straight angle, the plane of the two sharp edges at a corner does
-/// not carry a fan of tangents: measured in `docs/methods/pccm.md`.
+/// not carry a fan of tangents: `docs/methods/pccm.md`, Practice, has the figures.
 const CORNER_ANGLE_MARGIN: f64 = 0.05;
 
 /// Nodes of the refined mesh around a fan: the vertex, the far nodes of the edges, the diagonals of the patches.
@@ -107,7 +107,8 @@ fn place_on_crease(fan: &mut Fan, ring: &Ring, inserted: &Arrays) {
 }
 
 /// Direction of the limit tangent across a crease: the left eigenvector of the sector's matrix for the eigenvalue of
-/// valence `2 s`. The commonly printed mask belongs to other boundary rules (`docs/methods/pccm.md`).
+/// valence `2 s`. The commonly printed mask belongs to other boundary rules (`docs/methods/catmull_clark.md`, Changes
+/// from the paper).
 fn cross_tangent(ring: &Ring) -> Vec3 {
     let s = ring.diagonals.len();
     let theta = PI / s as f64;

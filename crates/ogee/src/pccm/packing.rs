@@ -3,7 +3,8 @@
 //! From every irregular vertex a motorcycle runs along each of its edges, straight on through regular vertices, until
 //! it meets a separator or the trace of another. What the traces leave between them are rectangles of quads, but for
 //! closed strips and tori, which are cut once more. Ties are settled by numbers, so the result is the same every time.
-//! After Eppstein, Goodrich, Kim and Tamstorf, Motorcycle graphs: canonical quad mesh partitioning (2008).
+//! After Eppstein, Goodrich, Kim and Tamstorf, Motorcycle graphs: canonical quad mesh partitioning (2008);
+//! `docs/methods/packing.md`.
 
 use super::CornerClass;
 use crate::math::Grid;

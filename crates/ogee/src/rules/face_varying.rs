@@ -1,7 +1,7 @@
 //! Face-varying data: one more level over the same halfedges, whose vertices are the values.
 //!
 //! Its twins are cut on seams, so seams obey the boundary rules; creases and sharp vertices are those of the mesh. The
-//! linear-interpolation rule says which values never move (`docs/methods/catmull_clark.md`).
+//! linear-interpolation rule says which values never move (`docs/methods/catmull_clark.md`, Theory).
 
 use super::{Level, SharpEdge, Sparse};
 use crate::mesh::{Boundary, FaceVarying, FaceVaryingRule, HalfedgeId, Scheme, Topology, VertexId};
