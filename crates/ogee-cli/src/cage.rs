@@ -109,11 +109,7 @@ impl Cage {
         let findings = defects.iter().map(|defect| {
             let mut finding = Finding::of_defect(defect, &self.name);
             // The face that came last is the one to look at.
-            let place = match *defect {
-                Defect::FlippedFace { face, .. } => Some(Place::Face(face.0)),
-                _ => defect.place(),
-            };
-            finding.location.line = place.and_then(|place| lines.of(place));
+            finding.location.line = defect.place().and_then(|place| lines.of(place));
             finding
         });
         findings.collect()
