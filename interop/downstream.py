@@ -50,4 +50,5 @@ def offset_inwards(shape: TopoDS_Shape, depth: float) -> Outcome | None:
     """The shape with all faces moved into it, sharp edges kept sharp; `None` where OpenCASCADE fails."""
     maker = BRepOffsetAPI_MakeOffsetShape()
     maker.PerformByJoin(shape, -depth, 1e-4)
-    return outcome(maker.Shape()) if maker.IsDone() else None
+    made = maker.Shape() if maker.IsDone() else None
+    return None if made is None or made.IsNull() else outcome(made)

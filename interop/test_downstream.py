@@ -17,7 +17,10 @@ def test_a_cut_through_the_middle(converted: Converter, name: str) -> None:
     assert left.volume + right.volume == pytest.approx(part.volume, rel=1e-7)
 
 
-@pytest.mark.parametrize("name", ["box", "hand", "knot", "mug"])
+FAILS = pytest.mark.xfail(strict=True, reason="the offset of OpenCASCADE comes back empty")
+
+
+@pytest.mark.parametrize("name", ["box", pytest.param("bracket", marks=FAILS), "hand", "knot", "mug"])
 def test_an_offset_inwards(converted: Converter, name: str) -> None:
     part = converted(name)
     depth = OFFSET * part.model.size
