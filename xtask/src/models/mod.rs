@@ -76,7 +76,7 @@ pub(crate) fn write_all(folder: &Path) -> Result<Vec<String>> {
     let mut lines = Vec::new();
     for model in all() {
         let path = folder.join(model.name).with_extension("obj");
-        std::fs::write(&path, write::to_obj(&model))
+        std::fs::write(&path, write::to_obj(&model)?)
             .with_context(|| format!("cannot write {}", path.display()))?;
         lines.push(format!("{}: {}", model.name, write::counts(&model)));
     }

@@ -1,41 +1,15 @@
-//! OBJ with subdivision tags: `f` counts from 1, `t` from 0.
+//! A model as the text of its file.
 
-use std::fmt::Write;
-
-use ogee::Sharpness;
+use anyhow::{Context, Result};
 
 use super::{Form, Model};
 
-/// What OBJ calls infinitely sharp.
-const INFINITE: f64 = 10.0;
-
-/// The text of a model's file.
-pub(super) fn to_obj(model: &Model) -> String {
-    let mesh = &model.mesh;
-    let mut text = String::new();
-    for line in model.about {
-        text += &format!("# {line}\n");
-    }
-    text += &format!("# Millimetres, z up; {}.\n", counts(model));
-    for p in &mesh.points {
-        text += &format!("v {} {} {}\n", p.x, p.y, p.z);
-    }
-    for face in mesh.faces.iter() {
-        text.push('f');
-        for v in face {
-            // Writing to a string cannot fail.
-            let _ = write!(text, " {}", v + 1);
-        }
-        text.push('\n');
-    }
-    for crease in &mesh.creases {
-        let [a, b] = crease.vertices;
-        text += &format!("t crease 2/1/0 {a} {b} {}\n", value(crease.sharpness));
-    }
-    for corner in &mesh.corners {
-        text += &format!("t corner 1/1/0 {} {}\n", corner.vertex, value(corner.sharpness));
-    }
-    text
+/// The text of a model's file: what it is for, its size, and the cage.
+pub(super) fn to_obj(model: &Model) -> Result<String> {
+    let about = format!("{}\nMillimetres, z up; {}.", model.about.join("\n"), counts(model));
+    let mut text = Vec::new();
+    ogee_formats::obj::write_cage(&model.mesh, &about, &mut text)?;
+    String::from_utf8(text).context("OBJ is plain text")
 }
 
 /// The size of a model in words.
@@ -47,11 +21,4 @@ pub(super) fn counts(model: &Model) -> String {
         Form::Open => "open".to_owned(),
     };
     format!("{} vertices, {} faces, {form}", mesh.points.len(), mesh.faces.len())
-}
-
-fn value(sharpness: Sharpness) -> f64 {
-    match sharpness {
-        Sharpness::Finite(value) => value,
-        Sharpness::Infinite => INFINITE,
-    }
 }

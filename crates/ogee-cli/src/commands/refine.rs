@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use clap::Args;
 use ogee::convert::UpAxis;
-use ogee::{ControlMesh, FaceList, Level, TooDeep, Vec3, limit_vertices};
+use ogee::{ControlMesh, FaceList, Level, LimitVertex, TooDeep, Vec3, limit_vertices};
 use ogee_formats::step::Unit;
 use ogee_formats::{Faces, MeshFormat, MeshView, Placement, write_mesh};
 use serde::Serialize;
@@ -130,34 +130,48 @@ impl Refine {
         Ok(ExitCode::SUCCESS)
     }
 
-    fn refine(&self, cage: &Cage, mut level: Level) -> Result<Fine, TooDeep> {
+    fn refine(&self, cage: &Cage, level: Level) -> Result<Fine, TooDeep> {
         let mesh = cage.mesh();
         let memory = system::available_memory().unwrap_or(u64::MAX);
-        if !self.limit && self.level > 0 {
-            let mesh = level.fine_mesh(&mesh.points, self.level, memory)?;
-            return Ok(Fine {
-                points: mesh.points,
-                faces: FineFaces::Quads(mesh.faces),
-                normals: None,
-                uv: None,
-            });
+        let own_share = if self.limit { memory / LIMIT_COSTS } else { memory };
+        level.check_depth(self.level, own_share)?;
+        if self.level == 0 {
+            let mut fine = visible(mesh, &level);
+            if self.limit {
+                fine.move_to_limit(&limit_vertices(&level, &mesh.points));
+            }
+            return Ok(fine);
         }
-        level.check_depth(self.level, memory / LIMIT_COSTS)?;
-        let mut points = mesh.points.clone();
-        for _ in 0..self.level {
-            (level, points) = level.refine_points(&points);
-        }
-        let mut fine = match self.level {
-            0 => visible(mesh, &level),
-            _ => Fine { points, faces: FineFaces::Quads(level.quads()), normals: None, uv: None },
+        let (uv_level, values) = match &mesh.uv {
+            Some(data) => level.face_varying(data),
+            None => (level.clone(), Vec::new()),
         };
-        if self.limit {
-            let limit = limit_vertices(&level, &fine.points);
-            // No normal is written as one of length zero.
-            let normals = limit.iter().map(|vertex| vertex.normal.unwrap_or(Vec3::ZERO));
-            fine.normals = Some(normals.collect());
-            fine.points = limit.iter().map(|vertex| vertex.position).collect();
+        if !self.limit {
+            let fine = level.fine_mesh(&mesh.points, self.level, memory)?;
+            let uv = match mesh.uv {
+                Some(_) => Some(uv_level.fine_mesh(&values, self.level, memory)?),
+                None => None,
+            };
+            let uv = uv.map(|uv| (uv.points, uv.faces.into_flattened()));
+            return Ok(Fine { points: fine.points, faces: FineFaces::Quads(fine.faces), normals: None, uv });
         }
+        let finest = |mut level: Level, mut points: Vec<Vec3>| {
+            for _ in 0..self.level {
+                (level, points) = level.refine_points(&points);
+            }
+            let limits = limit_vertices(&level, &points);
+            (level, limits)
+        };
+        let uv = mesh.uv.as_ref().map(|_| {
+            // A value is a point of the plane, and has a limit as any other.
+            let values = values.iter().map(|&[u, v]| Vec3::new(u, v, 0.0)).collect();
+            let (level, limits) = finest(uv_level, values);
+            let values = limits.iter().map(|limit| [limit.position.x, limit.position.y]);
+            (values.collect(), level.quads().into_flattened())
+        });
+        let (level, limits) = finest(level, mesh.points.clone());
+        let mut fine = Fine { points: Vec::new(), faces: FineFaces::Quads(level.quads()), normals: None, uv };
+        fine.move_to_limit(&limits);
         Ok(fine)
     }
 }
@@ -181,6 +195,12 @@ fn visible(mesh: &ControlMesh, level: &Level) -> Fine {
 }
 
 impl Fine {
+    fn move_to_limit(&mut self, limits: &[LimitVertex]) {
+        // No normal is written as one of length zero.
+        self.normals = Some(limits.iter().map(|limit| limit.normal.unwrap_or(Vec3::ZERO)).collect());
+        self.points = limits.iter().map(|limit| limit.position).collect();
+    }
+
     fn view<'a>(&'a self, name: &'a str) -> MeshView<'a> {
         MeshView {
             points: &self.points,

@@ -67,8 +67,8 @@ pub(super) fn largest_deviation(measured: &Measured<'_>, cells: &[QuadCell], ste
     }
     let template = Cells::new(base, &fine, level);
     let faces: Vec<FaceId> = cells.iter().map(|&(quad, i, j)| FaceId(template.face(quad, i, j))).collect();
-    let part = Neighbourhood::new(&fine, &with_ring(&fine, &faces));
     let own_faces = with_ring(&fine, &faces);
+    let part = Neighbourhood::new(&fine, &own_faces);
     let (mut level_beyond, mut nodes) = (part.level.clone(), part.take(&fine_points));
     let depth = STEPS_BEYOND + steps_more;
     for _ in 0..depth {

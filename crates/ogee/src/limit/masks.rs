@@ -37,6 +37,14 @@ pub(crate) fn smooth(vertex: Vec3, edges: &[Vec3], diagonals: &[Vec3]) -> Frame 
     Frame { position: position / (n * (n + 5.0)), tangents }
 }
 
+/// [`smooth`] at valence 4, where the surface is a bicubic B-spline.
+pub(crate) fn regular(vertex: Vec3, e: [Vec3; 4], d: [Vec3; 4]) -> Frame {
+    let position = (16.0 * vertex + 4.0 * (e[0] + e[1] + e[2] + e[3]) + (d[0] + d[1] + d[2] + d[3])) / 36.0;
+    let along = 4.0 * (e[0] - e[2]) + (d[0] - d[1]) + (d[3] - d[2]);
+    let across = 4.0 * (e[1] - e[3]) + (d[0] - d[3]) + (d[1] - d[2]);
+    Frame { position, tangents: [along, across] }
+}
+
 /// On a crease or boundary: neighbours from one sharp edge to the other, one more than diagonals.
 pub(crate) fn crease(vertex: Vec3, edges: &[Vec3], diagonals: &[Vec3]) -> Frame {
     let k = diagonals.len();
@@ -78,6 +86,19 @@ pub(crate) fn corner(vertex: Vec3, edges: &[Vec3]) -> Frame {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_regular_mask_is_the_smooth_one_at_valence_four() {
+        let point = |i: usize| Vec3::new((3 * i % 7) as f64, (i * i % 5) as f64, 1.0 / (i + 1) as f64);
+        let (edges, diagonals) =
+            (std::array::from_fn(|i| point(i + 1)), std::array::from_fn(|i| point(i + 5)));
+        let (a, b) = (smooth(point(0), &edges, &diagonals), regular(point(0), edges, diagonals));
+        assert!(a.position.distance(b.position) < 1e-15 * 10.0);
+        // Directions only: the lengths differ by no factor either.
+        for (s, t) in a.tangents.iter().zip(b.tangents) {
+            assert!(s.distance(t) < 1e-13);
+        }
+    }
 
     #[test]
     fn two_faces_on_a_boundary_give_the_cross_tangent_of_the_spline() {

@@ -33,6 +33,9 @@ pub fn limit_vertices(level: &Level, points: &[Vec3]) -> Vec<LimitVertex> {
 
 /// The limit of one vertex.
 pub(crate) fn limit_vertex(level: &Level, points: &[Vec3], v: VertexId) -> LimitVertex {
+    if let Some(limit) = regular(level, points, v) {
+        return limit;
+    }
     if level.topology().outgoing(v).is_none() {
         return LimitVertex { position: points[v.index()], normal: None };
     }
@@ -56,6 +59,24 @@ pub(crate) fn limit_vertex(level: &Level, points: &[Vec3], v: VertexId) -> Limit
         sum + edge.cross(next).normalized().unwrap_or(Vec3::ZERO)
     });
     LimitVertex { position: points[v.index()], normal: normal.normalized() }
+}
+
+/// The common case, without lists: four quads around a vertex, and no tags anywhere.
+fn regular(level: &Level, points: &[Vec3], v: VertexId) -> Option<LimitVertex> {
+    let topology = level.topology();
+    if level.has_tags() || !topology.is_quads() {
+        return None;
+    }
+    let mut ring = topology.ring(v);
+    let four = [ring.next()?, ring.next()?, ring.next()?, ring.next()?];
+    if ring.next().is_some() || topology.is_boundary(v) {
+        return None;
+    }
+    let edges = four.map(|h| points[topology.target(h).index()]);
+    let diagonals = four.map(|h| points[topology.target(topology.next(h)).index()]);
+    let frame = masks::regular(points[v.index()], edges, diagonals);
+    let normal = frame.tangents[0].cross(frame.tangents[1]).normalized();
+    Some(LimitVertex { position: frame.position, normal })
 }
 
 /// The vertex with two rings of faces: creases look that far.

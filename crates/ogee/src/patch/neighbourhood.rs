@@ -1,7 +1,7 @@
 //! `Neighbourhood`: some faces of a level as a level of their own.
 
-use crate::mesh::{FaceId, FaceList, Topology, VertexId};
-use crate::rules::{Level, SharpEdge, Sparse, find_edge};
+use crate::mesh::{FaceId, FaceList, HalfedgeId, Topology, VertexId};
+use crate::rules::{Level, SharpEdge, Sparse};
 
 /// Some faces of a level, with their tags, as a small level.
 ///
@@ -28,19 +28,19 @@ impl Neighbourhood {
         }
         let own_topology = Topology::of_part(&list, vertices.len());
         let mut sharp = Vec::new();
-        for (_, edge) in whole.sharp_edges().iter() {
-            let ends = [topology.origin(edge.halfedge), topology.target(edge.halfedge)];
-            if ends.iter().any(|v| vertices.binary_search(&v.0).is_err()) {
-                continue;
-            }
-            let found = find_edge(&own_topology, ends.map(|v| VertexId(own(v.0))));
-            if let Some(halfedge) = found.filter(|&h| own_topology.twin(h).is_some()) {
-                sharp
-                    .push((own_topology.edge(halfedge).0, SharpEdge { halfedge, sharpness: edge.sharpness }));
+        for (own_h, h) in faces.iter().flat_map(|&f| topology.halfedges(f)).enumerate() {
+            let halfedge = HalfedgeId(own_h as u32);
+            let is_first = own_topology.twin(halfedge).is_some_and(|twin| halfedge < twin);
+            let sharpness = if is_first { whole.edge_sharpness(h) } else { 0.0 };
+            if sharpness > 0.0 {
+                sharp.push((own_topology.edge(halfedge).0, SharpEdge { halfedge, sharpness }));
             }
         }
-        let tagged = whole.sharp_vertices().iter().filter(|(v, _)| vertices.binary_search(v).is_ok());
-        let sharp_vertices = Sparse::new(tagged.map(|(v, s)| (own(v), s)).collect());
+        let tagged = vertices
+            .iter()
+            .enumerate()
+            .filter_map(|(own, &v)| Some((own as u32, whole.sharp_vertices().get(v)?)));
+        let sharp_vertices = Sparse::new(tagged.collect());
         let level = Level::with_sharpness(
             own_topology,
             whole.scheme(),

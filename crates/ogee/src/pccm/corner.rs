@@ -141,7 +141,8 @@ fn place_at_corner(fan: &mut Fan, ring: &Ring) {
     if inside.dot(first + last) < 0.0 {
         opening = TAU - opening;
     }
-    if (opening - PI).abs() < CORNER_ANGLE_MARGIN || opening < CORNER_ANGLE_MARGIN {
+    let [full, straight, folded] = [TAU, PI, 0.0].map(|angle| (opening - angle).abs() < CORNER_ANGLE_MARGIN);
+    if full || straight || folded {
         return;
     }
     let angle = opening / s as f64;

@@ -105,9 +105,9 @@ impl Level {
         self.vertex_sharpness.get(v.0).unwrap_or(0.0)
     }
 
-    /// True if an edge or vertex has a sharpness that will fade.
-    pub fn has_semi_sharp(&self) -> bool {
-        self.semi_sharp_edges().next().is_some() || self.semi_sharp_vertices().next().is_some()
+    /// True if an edge or vertex is sharp by a tag.
+    pub(crate) fn has_tags(&self) -> bool {
+        !self.sharp_edges.is_empty() || !self.vertex_sharpness.is_empty()
     }
 
     /// The edges with finite sharpness above zero, by one halfedge each.
@@ -157,10 +157,6 @@ impl Level {
         (&self.edge_rules, &self.vertex_rules)
     }
 
-    pub(crate) fn sharp_edges(&self) -> &Sparse<SharpEdge> {
-        &self.sharp_edges
-    }
-
     pub(crate) fn sharp_vertices(&self) -> &Sparse<f64> {
         &self.vertex_sharpness
     }
@@ -182,7 +178,7 @@ impl Level {
 }
 
 /// The halfedge between two vertices, in either direction.
-pub(crate) fn find_edge(topology: &Topology, [a, b]: [VertexId; 2]) -> Option<HalfedgeId> {
+fn find_edge(topology: &Topology, [a, b]: [VertexId; 2]) -> Option<HalfedgeId> {
     topology.ring(a).find_map(|h| {
         let before = topology.prev(h);
         if topology.target(h) == b {

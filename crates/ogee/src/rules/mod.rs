@@ -9,7 +9,7 @@ mod sector;
 mod sparse;
 
 pub use level::Level;
-pub(crate) use level::{SharpEdge, find_edge};
+pub(crate) use level::SharpEdge;
 pub use sector::Sector;
 pub(crate) use sparse::Sparse;
 
