@@ -4,7 +4,7 @@
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use ogee::{ControlMesh, Level, shapes};
+use ogee::{ControlMesh, FineMesh, Level, shapes};
 
 const LEVELS: u32 = 3;
 
@@ -38,6 +38,21 @@ fn straight_from_points<const THREADS: usize>(bencher: Bencher<'_, '_>, kind: Ca
             let level = Level::new(&mesh).unwrap();
             level.fine_mesh(&mesh.points, LEVELS, u64::MAX).unwrap()
         })
+    });
+}
+
+/// The same into the memory of the mesh before.
+#[divan::bench(args = [Cage::Regular, Cage::Studded], consts = [1, 2], sample_count = 10)]
+fn straight_from_points_reusing_memory<const THREADS: usize>(bencher: Bencher<'_, '_>, kind: Cage) {
+    let mesh = cage(kind);
+    let faces = mesh.faces.corners().len() << (2 * (LEVELS - 1));
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(THREADS).build().unwrap();
+    let mut fine = FineMesh { points: Vec::new(), faces: Vec::new() };
+    bencher.counter(ItemsCount::new(faces)).bench_local(|| {
+        pool.install(|| {
+            let level = Level::new(&mesh).unwrap();
+            level.fine_mesh_into(&mesh.points, LEVELS, u64::MAX, &mut fine).unwrap();
+        });
     });
 }
 

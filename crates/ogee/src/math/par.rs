@@ -9,14 +9,22 @@ const CHUNK: usize = 1024;
 
 /// `f(0), f(1), .. f(count - 1)` on all cores; memory is written once, not cleared before.
 pub(crate) fn collect<T: Send>(count: usize, f: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
+    let mut out = Vec::with_capacity(count);
+    extend(&mut out, count, f);
+    out
+}
+
+/// Appends `f(0), f(1), .. f(count - 1)`.
+pub(crate) fn extend<T: Send>(out: &mut Vec<T>, count: usize, f: impl Fn(usize) -> T + Sync + Send) {
     #[cfg(feature = "rayon")]
     {
         use rayon::prelude::*;
         if count > CHUNK {
-            return (0..count).into_par_iter().with_min_len(CHUNK).map(f).collect();
+            out.par_extend((0..count).into_par_iter().with_min_len(CHUNK).map(f));
+            return;
         }
     }
-    (0..count).map(f).collect()
+    out.extend((0..count).map(f));
 }
 
 /// `f(0), f(1), .. f(count - 1)`, each worth a task of its own, on all cores.

@@ -40,32 +40,56 @@ impl Level {
         depth: u32,
         memory: u64,
     ) -> Result<FineMesh<T>, TooDeep> {
+        let mut mesh = FineMesh { points: Vec::new(), faces: Vec::new() };
+        self.fine_mesh_into(points, depth, memory, &mut mesh)?;
+        Ok(mesh)
+    }
+
+    /// The same into the memory of an earlier mesh, which saves a good part of the time where it is done again and
+    /// again.
+    ///
+    /// # Errors
+    /// As [`Level::fine_mesh`]; then `mesh` is left as it was.
+    ///
+    /// # Panics
+    /// As [`Level::fine_mesh`].
+    pub fn fine_mesh_into<T: Interpolate>(
+        &self,
+        points: &[T],
+        depth: u32,
+        memory: u64,
+        mesh: &mut FineMesh<T>,
+    ) -> Result<(), TooDeep> {
         assert!(depth > 0, "a fine mesh is at least one step away");
         self.check_depth(depth, memory)?;
         if depth == 1 {
-            return Ok(self.last_step(points));
+            self.last_step(points, mesh);
+            return Ok(());
         }
         let (mut level, mut points) = self.refine_points(points);
         for _ in 2..depth {
             (level, points) = level.refine_points(&points);
         }
-        Ok(level.last_step(&points))
+        level.last_step(&points, mesh);
+        Ok(())
     }
 
-    fn last_step<T: Interpolate>(&self, points: &[T]) -> FineMesh<T> {
+    fn last_step<T: Interpolate>(&self, points: &[T], mesh: &mut FineMesh<T>) {
         let topology = self.topology();
-        let fine_points = self.child_points(points);
-        let mut faces =
-            par::collect(topology.halfedge_count(), |h| topology.child_quad(HalfedgeId(h as u32)));
+        self.child_points_into(points, &mut mesh.points);
+        mesh.faces.clear();
+        mesh.faces.reserve(topology.halfedge_count());
+        par::extend(&mut mesh.faces, topology.halfedge_count(), |h| {
+            topology.child_quad(HalfedgeId(h as u32))
+        });
         if !self.hidden_faces().is_empty() {
             let mut halfedge = 0;
-            faces.retain(|_| {
+            mesh.faces.retain(|_| {
                 let visible = self.is_visible(topology.face(HalfedgeId(halfedge)));
                 halfedge += 1;
                 visible
             });
         }
-        FineMesh { points: fine_points, faces }
     }
 
     /// The visible faces of this level as quads.

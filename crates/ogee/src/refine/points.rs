@@ -19,28 +19,36 @@ impl Level {
 
     /// The points of the next level: vertex points, face points, edge points.
     pub(crate) fn child_points<T: Interpolate>(&self, points: &[T]) -> Vec<T> {
+        let mut out = Vec::new();
+        self.child_points_into(points, &mut out);
+        out
+    }
+
+    /// The same into memory that is there already: fresh memory costs more than the arithmetic.
+    pub(crate) fn child_points_into<T: Interpolate>(&self, points: &[T], out: &mut Vec<T>) {
         let topology = self.topology();
-        let (vertices, faces) = (topology.vertex_count(), topology.face_count());
+        let (vertices, faces, edges) =
+            (topology.vertex_count(), topology.face_count(), topology.edge_count());
         let points = &points[..vertices];
         let face_points = par::collect(faces, |f| face_point(topology, FaceId(f as u32), points));
         let (edge_rules, vertex_rules) = self.tagged_rules();
-        par::collect(vertices + faces + topology.edge_count(), |i| {
-            if i < vertices {
-                let v = VertexId(i as u32);
-                if !vertex_rules.is_empty() && vertex_rules.get(v.0).is_some() {
-                    return by_table(points, |row| masks::vertex_mask(self, v, row));
-                }
-                vertex_point(self, v, points, &face_points)
-            } else if i < vertices + faces {
-                face_points[i - vertices].clone()
-            } else {
-                let e = EdgeId((i - vertices - faces) as u32);
-                if !edge_rules.is_empty() && edge_rules.get(e.0).is_some() {
-                    return by_table(points, |row| masks::edge_mask(self, topology.side(e), row));
-                }
-                edge_point(topology, topology.side(e), points, &face_points)
+        out.clear();
+        out.reserve(vertices + faces + edges);
+        par::extend(out, vertices, |v| {
+            let v = VertexId(v as u32);
+            if !vertex_rules.is_empty() && vertex_rules.get(v.0).is_some() {
+                return by_table(points, |row| masks::vertex_mask(self, v, row));
             }
-        })
+            vertex_point(self, v, points, &face_points)
+        });
+        out.extend_from_slice(&face_points);
+        par::extend(out, edges, |e| {
+            let e = EdgeId(e as u32);
+            if !edge_rules.is_empty() && edge_rules.get(e.0).is_some() {
+                return by_table(points, |row| masks::edge_mask(self, topology.side(e), row));
+            }
+            edge_point(topology, topology.side(e), points, &face_points)
+        });
     }
 }
 
