@@ -68,6 +68,10 @@ fn fast_path_equals_the_table() {
             assert_eq!(fine.faces, next.quads(), "{name}");
             (level, points) = (next, by_fast_path);
         }
+        // In one go the last level but one may never be stored.
+        let base = Level::new(&mesh).unwrap();
+        let fine = base.fine_mesh(&mesh.points, 3, u64::MAX).unwrap();
+        assert_eq!((fine.points, fine.faces), (points, level.quads()), "{name}");
     }
 }
 

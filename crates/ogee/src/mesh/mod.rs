@@ -1,6 +1,7 @@
 //! Control meshes and their connectivity.
 
 mod check;
+pub(crate) mod connectivity;
 mod control_mesh;
 mod ids;
 pub mod shapes;

@@ -1,6 +1,11 @@
 //! `FineMesh`: the finest level as plain quads, for files and pictures.
 
+use std::borrow::Cow;
+
+use super::points::untagged_points;
+use super::split::{Split, child_quad};
 use crate::math::{Interpolate, Vec3, par};
+use crate::mesh::connectivity::Connectivity;
 use crate::mesh::{FaceId, HalfedgeId};
 use crate::rules::Level;
 
@@ -11,6 +16,12 @@ pub struct FineMesh<T = Vec3> {
     pub points: Vec<T>,
     /// The quads, in the order of the level's faces; hidden ones are left out.
     pub faces: Vec<[u32; 4]>,
+}
+
+/// The quads of the level after `topology`.
+fn write_quads(topology: &impl Connectivity, out: &mut Vec<[u32; 4]>) {
+    out.clear();
+    par::extend(out, topology.halfedge_count(), |h| child_quad(topology, HalfedgeId(h as u32)));
 }
 
 /// A depth that would not fit.
@@ -62,26 +73,35 @@ impl Level {
     ) -> Result<(), TooDeep> {
         assert!(depth > 0, "a fine mesh is at least one step away");
         self.check_depth(depth, memory)?;
+        let plain = !self.has_tags() && self.hidden_faces().is_empty();
         if depth == 1 {
             self.last_step(points, mesh);
             return Ok(());
         }
-        let (mut level, mut points) = self.refine_points(points);
+        let mut level = Cow::Borrowed(self);
+        let mut points = Cow::Borrowed(points);
         for _ in 2..depth {
-            (level, points) = level.refine_points(&points);
+            let (next, next_points) = level.refine_points(&points);
+            (level, points) = (Cow::Owned(next), Cow::Owned(next_points));
         }
-        level.last_step(&points, mesh);
+        if !plain {
+            let (last, points) = level.refine_points(&points);
+            last.last_step(&points, mesh);
+            return Ok(());
+        }
+        // The last level but one is asked, not stored: that saves a third of the memory.
+        let mut last_points = Vec::new();
+        level.child_points(&points, &mut last_points);
+        let last = Split(level.topology());
+        untagged_points(&last, self.scheme().boundary, &last_points, &mut mesh.points);
+        write_quads(&last, &mut mesh.faces);
         Ok(())
     }
 
     fn last_step<T: Interpolate>(&self, points: &[T], mesh: &mut FineMesh<T>) {
         let topology = self.topology();
-        self.child_points_into(points, &mut mesh.points);
-        mesh.faces.clear();
-        mesh.faces.reserve(topology.halfedge_count());
-        par::extend(&mut mesh.faces, topology.halfedge_count(), |h| {
-            topology.child_quad(HalfedgeId(h as u32))
-        });
+        self.child_points(points, &mut mesh.points);
+        write_quads(topology, &mut mesh.faces);
         if !self.hidden_faces().is_empty() {
             let mut halfedge = 0;
             mesh.faces.retain(|_| {

@@ -4,8 +4,9 @@
 //! rows; everything a tag touches asks the rule table. The test `fast_path_equals_the_table` holds the two together.
 
 use crate::math::{Interpolate, par};
-use crate::mesh::{EdgeId, FaceId, HalfedgeId, Topology, VertexId};
-use crate::rules::{Level, VertexMask, masks};
+use crate::mesh::connectivity::Connectivity;
+use crate::mesh::{Boundary, EdgeId, FaceId, HalfedgeId, VertexId};
+use crate::rules::{Level, masks};
 use crate::stencil::Row;
 
 impl Level {
@@ -14,42 +15,60 @@ impl Level {
     /// # Panics
     /// If there are fewer points than vertices, or the next level would be too large.
     pub fn refine_points<T: Interpolate>(&self, points: &[T]) -> (Level, Vec<T>) {
-        (self.split(), self.child_points(points))
-    }
-
-    /// The points of the next level: vertex points, face points, edge points.
-    pub(crate) fn child_points<T: Interpolate>(&self, points: &[T]) -> Vec<T> {
         let mut out = Vec::new();
-        self.child_points_into(points, &mut out);
-        out
+        self.child_points(points, &mut out);
+        (self.split(), out)
     }
 
-    /// The same into memory that is there already: fresh memory costs more than the arithmetic.
-    pub(crate) fn child_points_into<T: Interpolate>(&self, points: &[T], out: &mut Vec<T>) {
-        let topology = self.topology();
-        let (vertices, faces, edges) =
-            (topology.vertex_count(), topology.face_count(), topology.edge_count());
-        let points = &points[..vertices];
-        let face_points = par::collect(faces, |f| face_point(topology, FaceId(f as u32), points));
+    /// The points of the next level: vertex points, face points, edge points. They go into memory that is there
+    /// already: fresh memory costs more than the arithmetic.
+    pub(crate) fn child_points<T: Interpolate>(&self, points: &[T], out: &mut Vec<T>) {
         let (edge_rules, vertex_rules) = self.tagged_rules();
-        out.clear();
-        out.reserve(vertices + faces + edges);
-        par::extend(out, vertices, |v| {
-            let v = VertexId(v as u32);
-            if !vertex_rules.is_empty() && vertex_rules.get(v.0).is_some() {
-                return by_table(points, |row| masks::vertex_mask(self, v, row));
-            }
-            vertex_point(self, v, points, &face_points)
-        });
-        out.extend_from_slice(&face_points);
-        par::extend(out, edges, |e| {
-            let e = EdgeId(e as u32);
-            if !edge_rules.is_empty() && edge_rules.get(e.0).is_some() {
-                return by_table(points, |row| masks::edge_mask(self, topology.side(e), row));
-            }
-            edge_point(topology, topology.side(e), points, &face_points)
-        });
+        let tagged_vertex = |v: VertexId| {
+            let tagged = !vertex_rules.is_empty() && vertex_rules.get(v.0).is_some();
+            tagged.then(|| by_table(points, |row| masks::vertex_mask(self, v, row)))
+        };
+        let tagged_edge = |e: EdgeId| {
+            let tagged = !edge_rules.is_empty() && edge_rules.get(e.0).is_some();
+            tagged.then(|| by_table(points, |row| masks::edge_mask(self, self.topology().side(e), row)))
+        };
+        refine(self.topology(), self.scheme().boundary, points, out, tagged_vertex, tagged_edge);
     }
+}
+
+/// The points of the level after `topology`, which no tag touches.
+pub(super) fn untagged_points<T: Interpolate>(
+    topology: &impl Connectivity,
+    boundary: Boundary,
+    points: &[T],
+    out: &mut Vec<T>,
+) {
+    refine(topology, boundary, points, out, |_| None, |_| None);
+}
+
+/// `tagged_vertex` and `tagged_edge` give the points of elements that have a rule of their own.
+fn refine<T: Interpolate>(
+    topology: &impl Connectivity,
+    boundary: Boundary,
+    points: &[T],
+    out: &mut Vec<T>,
+    tagged_vertex: impl Fn(VertexId) -> Option<T> + Sync + Send,
+    tagged_edge: impl Fn(EdgeId) -> Option<T> + Sync + Send,
+) {
+    let (vertices, faces, edges) = (topology.vertex_count(), topology.face_count(), topology.edge_count());
+    let points = &points[..vertices];
+    let face_points = par::collect(faces, |f| face_point(topology, FaceId(f as u32), points));
+    out.clear();
+    out.reserve(vertices + faces + edges);
+    par::extend(out, vertices, |v| {
+        let v = VertexId(v as u32);
+        tagged_vertex(v).unwrap_or_else(|| vertex_point(topology, boundary, v, points, &face_points))
+    });
+    out.extend_from_slice(&face_points);
+    par::extend(out, edges, |e| {
+        let e = EdgeId(e as u32);
+        tagged_edge(e).unwrap_or_else(|| edge_point(topology, topology.side(e), points, &face_points))
+    });
 }
 
 fn by_table<T: Interpolate>(points: &[T], write: impl Fn(&mut Row)) -> T {
@@ -63,17 +82,23 @@ fn by_table<T: Interpolate>(points: &[T], write: impl Fn(&mut Row)) -> T {
 }
 
 #[inline]
-fn face_point<T: Interpolate>(topology: &Topology, f: FaceId, points: &[T]) -> T {
-    let share = 1.0 / f64::from(topology.face_size(f));
+fn face_point<T: Interpolate>(topology: &impl Connectivity, f: FaceId, points: &[T]) -> T {
+    let (first, size) = (topology.first(f).0, topology.face_size(f));
+    let share = 1.0 / f64::from(size);
     let mut value = T::zero();
-    for h in topology.halfedges(f) {
-        value.add_scaled(share, &points[topology.origin(h).index()]);
+    for h in first..first + size {
+        value.add_scaled(share, &points[topology.origin(HalfedgeId(h)).index()]);
     }
     value
 }
 
 #[inline]
-fn edge_point<T: Interpolate>(topology: &Topology, h: HalfedgeId, points: &[T], face_points: &[T]) -> T {
+fn edge_point<T: Interpolate>(
+    topology: &impl Connectivity,
+    h: HalfedgeId,
+    points: &[T],
+    face_points: &[T],
+) -> T {
     let ends = [&points[topology.origin(h).index()], &points[topology.target(h).index()]];
     let mut value = T::zero();
     let Some(twin) = topology.twin(h) else {
@@ -89,35 +114,48 @@ fn edge_point<T: Interpolate>(topology: &Topology, h: HalfedgeId, points: &[T], 
 }
 
 #[inline]
-fn vertex_point<T: Interpolate>(level: &Level, v: VertexId, points: &[T], face_points: &[T]) -> T {
-    let topology = level.topology();
+fn vertex_point<T: Interpolate>(
+    topology: &impl Connectivity,
+    boundary: Boundary,
+    v: VertexId,
+    points: &[T],
+    face_points: &[T],
+) -> T {
     let own = &points[v.index()];
-    if let Some(first) = topology.outgoing(v).filter(|&h| topology.twin(h).is_some()) {
-        let mut around = T::zero();
-        let mut n = 0.0;
-        let mut h = first;
-        loop {
-            around.add_scaled(1.0, &points[topology.target(h).index()]);
-            around.add_scaled(1.0, &face_points[topology.face(h).index()]);
-            n += 1.0;
-            match topology.twin(topology.prev(h)) {
-                Some(next) if next != first => h = next,
-                _ => break,
-            }
+    let Some(first) = topology.outgoing(v) else { return own.clone() };
+    let mut around = T::zero();
+    let mut n = 0.0;
+    let mut h = first;
+    loop {
+        around.add_scaled(1.0, &points[topology.target(h).index()]);
+        around.add_scaled(1.0, &face_points[topology.face(h).index()]);
+        n += 1.0;
+        match topology.twin(topology.prev(h)) {
+            Some(next) if next != first => h = next,
+            Some(_) => break,
+            None => return boundary_point(topology, boundary, [first, h], own, points),
         }
-        let mut value = T::zero();
-        value.add_scaled((n - 2.0) / n, own);
-        value.add_scaled(1.0 / (n * n), &around);
-        return value;
     }
-    match level.untagged_mask(v) {
-        VertexMask::Crease { ends } => {
-            let mut value = T::zero();
-            value.add_scaled(6.0 / 8.0, own);
-            value.add_scaled(1.0 / 8.0, &points[ends[0].index()]);
-            value.add_scaled(1.0 / 8.0, &points[ends[1].index()]);
-            value
-        }
-        VertexMask::Smooth | VertexMask::Corner => own.clone(),
+    let mut value = T::zero();
+    value.add_scaled((n - 2.0) / n, own);
+    value.add_scaled(1.0 / (n * n), &around);
+    value
+}
+
+/// `ends`: the first and the last halfedge that leave the vertex.
+fn boundary_point<T: Interpolate>(
+    topology: &impl Connectivity,
+    boundary: Boundary,
+    [first, last]: [HalfedgeId; 2],
+    own: &T,
+    points: &[T],
+) -> T {
+    if first == last && boundary == Boundary::EdgeAndCorner {
+        return own.clone();
     }
+    let mut value = T::zero();
+    value.add_scaled(6.0 / 8.0, own);
+    value.add_scaled(1.0 / 8.0, &points[topology.target(first).index()]);
+    value.add_scaled(1.0 / 8.0, &points[topology.origin(topology.prev(last)).index()]);
+    value
 }

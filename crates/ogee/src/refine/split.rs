@@ -19,88 +19,174 @@
 //! corner 0.
 
 use crate::math::par;
+use crate::mesh::connectivity::Connectivity;
 use crate::mesh::topology::{Layout, NONE};
-use crate::mesh::{EdgeId, FaceId, HalfedgeId, Topology};
+use crate::mesh::{EdgeId, FaceId, HalfedgeId, Topology, VertexId};
 
-impl Topology {
-    /// The corners of quad `h` of the next level, in its order `o, e, f, p`.
+/// The next level, asked but not stored.
+pub(crate) struct Split<'a>(pub(crate) &'a Topology);
+
+/// The corners of quad `h` of the next level, in its order `o, e, f, p`.
+#[inline]
+pub(crate) fn child_quad(parent: &impl Connectivity, h: HalfedgeId) -> [u32; 4] {
+    let vertices = parent.vertex_count() as u32;
+    let edge_points = vertices + parent.face_count() as u32;
+    [
+        parent.origin(h).0,
+        edge_points + parent.edge(h).0,
+        vertices + parent.face(h).0,
+        edge_points + parent.edge(parent.prev(h)).0,
+    ]
+}
+
+impl Split<'_> {
+    /// The twin of halfedge `4h + k`.
     #[inline]
-    pub(crate) fn child_quad(&self, h: HalfedgeId) -> [u32; 4] {
-        let vertices = self.vertex_count() as u32;
-        let edge_points = vertices + self.face_count() as u32;
-        [
-            self.origin(h).0,
-            edge_points + self.edge(h).0,
-            vertices + self.face(h).0,
-            edge_points + self.edge(self.prev(h)).0,
-        ]
-    }
-
-    /// The topology one step on. The caller has made sure that `4H` fits.
-    pub(crate) fn split(&self) -> Topology {
-        let halfedges = self.halfedge_count();
-        let origin = par::collect(halfedges, |h| self.child_quad(HalfedgeId(h as u32)));
-        let twin = par::collect(halfedges, |h| {
-            let h = HalfedgeId(h as u32);
-            let prev = self.prev(h);
-            [
-                self.twin(h).map_or(NONE, |twin| 4 * self.next(twin).0 + 3),
-                4 * self.next(h).0 + 2,
-                4 * prev.0 + 1,
-                self.twin(prev).map_or(NONE, |twin| 4 * twin.0),
-            ]
-        });
-        let edges = self.edge_count();
-        let inner = 2 * edges as u32;
-        let edge = par::collect(halfedges, |h| {
-            let h = HalfedgeId(h as u32);
-            let prev = self.prev(h);
-            // The half at the origin of the smaller halfedge is `2e`, the other `2e + 1`; `NONE` is greater than all.
-            let half_at_origin = u32::from(self.twin[h.index()] < h.0);
-            let half_at_target = u32::from(self.twin[prev.index()] > prev.0);
-            [
-                2 * self.edge(h).0 + half_at_origin,
-                inner + h.0,
-                inner + prev.0,
-                2 * self.edge(prev).0 + half_at_target,
-            ]
-        });
-        let first_side = par::collect(2 * edges + halfedges, |e| {
-            if e >= 2 * edges {
-                let h = HalfedgeId((e - 2 * edges) as u32);
-                return (4 * h.0 + 1).min(4 * self.next(h).0 + 2);
-            }
-            let h = self.side(EdgeId(e as u32 / 2));
-            let twin = self.twin(h);
-            if e % 2 == 0 {
-                twin.map_or(4 * h.0, |twin| (4 * h.0).min(4 * self.next(twin).0 + 3))
-            } else {
-                let far = 4 * self.next(h).0 + 3;
-                twin.map_or(far, |twin| far.min(4 * twin.0))
-            }
-        });
-        Topology {
-            outgoing: self.split_outgoing(),
-            origin: origin.into_flattened(),
-            twin: twin.into_flattened(),
-            edge: edge.into_flattened(),
-            first_side,
-            layout: Layout::Quads,
+    fn child_twin(&self, h: HalfedgeId, k: u32) -> u32 {
+        let parent = self.0;
+        match k {
+            0 => parent.twin(h).map_or(NONE, |twin| 4 * parent.next(twin).0 + 3),
+            1 => 4 * parent.next(h).0 + 2,
+            2 => 4 * parent.prev(h).0 + 1,
+            _ => parent.twin(parent.prev(h)).map_or(NONE, |twin| 4 * twin.0),
         }
     }
 
-    fn split_outgoing(&self) -> Vec<u32> {
-        let (vertices, faces) = (self.vertex_count(), self.face_count());
-        par::collect(vertices + faces + self.edge_count(), |v| {
-            if v < vertices {
-                let h = self.outgoing[v];
-                if h == NONE { NONE } else { 4 * h }
-            } else if v < vertices + faces {
-                4 * self.first(FaceId((v - vertices) as u32)).0 + 2
-            } else {
-                // Where the edge is a boundary this halfedge has no twin either.
-                4 * self.next(self.side(EdgeId((v - vertices - faces) as u32))).0 + 3
-            }
+    /// The edge of halfedge `4h + k`. The half at the origin of the smaller halfedge is `2e`, the other `2e + 1`.
+    #[inline]
+    fn child_edge(&self, h: HalfedgeId, k: u32) -> u32 {
+        let parent = self.0;
+        let inner = 2 * parent.edge_count() as u32;
+        let prev = parent.prev(h);
+        match k {
+            // `NONE` is greater than all.
+            0 => 2 * parent.edge(h).0 + u32::from(parent.twin[h.index()] < h.0),
+            1 => inner + h.0,
+            2 => inner + prev.0,
+            _ => 2 * parent.edge(prev).0 + u32::from(parent.twin[prev.index()] > prev.0),
+        }
+    }
+
+    /// The smaller halfedge of an edge.
+    #[inline]
+    fn child_side(&self, e: u32) -> u32 {
+        let parent = self.0;
+        let halves = 2 * parent.edge_count() as u32;
+        if e >= halves {
+            let h = HalfedgeId(e - halves);
+            return (4 * h.0 + 1).min(4 * parent.next(h).0 + 2);
+        }
+        let h = parent.side(EdgeId(e / 2));
+        let twin = parent.twin(h);
+        if e.is_multiple_of(2) {
+            twin.map_or(4 * h.0, |twin| (4 * h.0).min(4 * parent.next(twin).0 + 3))
+        } else {
+            let far = 4 * parent.next(h).0 + 3;
+            twin.map_or(far, |twin| far.min(4 * twin.0))
+        }
+    }
+
+    /// A halfedge that leaves a vertex, on a boundary the one without twin.
+    #[inline]
+    fn child_outgoing(&self, v: u32) -> u32 {
+        let parent = self.0;
+        let (vertices, faces) = (parent.vertex_count() as u32, parent.face_count() as u32);
+        if v < vertices {
+            let h = parent.outgoing[v as usize];
+            if h == NONE { NONE } else { 4 * h }
+        } else if v < vertices + faces {
+            4 * parent.first(FaceId(v - vertices)).0 + 2
+        } else {
+            // Where the edge is a boundary this halfedge has no twin either.
+            4 * parent.next(parent.side(EdgeId(v - vertices - faces))).0 + 3
+        }
+    }
+}
+
+impl Connectivity for Split<'_> {
+    #[inline]
+    fn vertex_count(&self) -> usize {
+        self.0.vertex_count() + self.0.face_count() + self.0.edge_count()
+    }
+    #[inline]
+    fn edge_count(&self) -> usize {
+        2 * self.0.edge_count() + self.0.halfedge_count()
+    }
+    #[inline]
+    fn face_count(&self) -> usize {
+        self.0.halfedge_count()
+    }
+    #[inline]
+    fn halfedge_count(&self) -> usize {
+        4 * self.0.halfedge_count()
+    }
+    #[inline]
+    fn face_size(&self, _: FaceId) -> u32 {
+        4
+    }
+    #[inline]
+    fn first(&self, f: FaceId) -> HalfedgeId {
+        HalfedgeId(4 * f.0)
+    }
+    #[inline]
+    fn next(&self, h: HalfedgeId) -> HalfedgeId {
+        HalfedgeId((h.0 & !3) | ((h.0 + 1) & 3))
+    }
+    #[inline]
+    fn prev(&self, h: HalfedgeId) -> HalfedgeId {
+        HalfedgeId((h.0 & !3) | (h.0.wrapping_sub(1) & 3))
+    }
+    #[inline]
+    fn face(&self, h: HalfedgeId) -> FaceId {
+        FaceId(h.0 / 4)
+    }
+    #[inline]
+    fn origin(&self, h: HalfedgeId) -> VertexId {
+        let parent = HalfedgeId(h.0 / 4);
+        let vertices = self.0.vertex_count() as u32;
+        let edge_points = vertices + self.0.face_count() as u32;
+        VertexId(match h.0 & 3 {
+            0 => self.0.origin(parent).0,
+            1 => edge_points + self.0.edge(parent).0,
+            2 => vertices + self.0.face(parent).0,
+            _ => edge_points + self.0.edge(self.0.prev(parent)).0,
         })
+    }
+    #[inline]
+    fn twin(&self, h: HalfedgeId) -> Option<HalfedgeId> {
+        let twin = self.child_twin(HalfedgeId(h.0 / 4), h.0 & 3);
+        (twin != NONE).then_some(HalfedgeId(twin))
+    }
+    #[inline]
+    fn edge(&self, h: HalfedgeId) -> EdgeId {
+        EdgeId(self.child_edge(HalfedgeId(h.0 / 4), h.0 & 3))
+    }
+    #[inline]
+    fn side(&self, e: EdgeId) -> HalfedgeId {
+        HalfedgeId(self.child_side(e.0))
+    }
+    #[inline]
+    fn outgoing(&self, v: VertexId) -> Option<HalfedgeId> {
+        let h = self.child_outgoing(v.0);
+        (h != NONE).then_some(HalfedgeId(h))
+    }
+}
+
+impl Topology {
+    /// The topology one step on, stored. The caller has made sure that `4H` fits.
+    pub(crate) fn split(&self) -> Topology {
+        let split = Split(self);
+        let halfedges = self.halfedge_count();
+        let of_quads = |of: &(dyn Fn(HalfedgeId) -> [u32; 4] + Sync)| -> Vec<u32> {
+            par::collect(halfedges, |h| of(HalfedgeId(h as u32))).into_flattened()
+        };
+        Topology {
+            origin: of_quads(&|h| child_quad(self, h)),
+            twin: of_quads(&|h| std::array::from_fn(|k| split.child_twin(h, k as u32))),
+            edge: of_quads(&|h| std::array::from_fn(|k| split.child_edge(h, k as u32))),
+            first_side: par::collect(split.edge_count(), |e| split.child_side(e as u32)),
+            outgoing: par::collect(split.vertex_count(), |v| split.child_outgoing(v as u32)),
+            layout: Layout::Quads,
+        }
     }
 }
