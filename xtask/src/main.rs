@@ -1,5 +1,6 @@
-//! Chores of the workspace. `models [DIR]` writes the shipped cages.
+//! Chores of the workspace. `models [DIR]` writes the shipped cages, `bench` times whole commands.
 
+mod bench;
 mod models;
 
 use std::path::PathBuf;
@@ -17,6 +18,10 @@ fn main() -> Result<()> {
             }
             Ok(())
         }
-        _ => bail!("usage: cargo run -p xtask -- models [DIR]"),
+        ["bench"] => {
+            print!("{}", bench::table()?);
+            Ok(())
+        }
+        _ => bail!("usage: cargo xtask models [DIR] | bench"),
     }
 }

@@ -111,6 +111,8 @@ struct Report<'a> {
     sharp_edges: usize,
     seconds: Seconds,
     file_bytes: u64,
+    /// The most memory held.
+    peak_bytes: Option<u64>,
     notes: &'a [Finding],
 }
 
@@ -223,6 +225,7 @@ impl Convert {
             sharp_edges: figures.sharp_edges,
             seconds,
             file_bytes,
+            peak_bytes: system::peak_memory(),
             notes,
         }
     }
