@@ -10,6 +10,6 @@ mod surface;
 
 pub use curve::NurbsCurve;
 pub use knots::KnotVector;
-pub(crate) use quadrature::gauss;
+pub use quadrature::gauss;
 pub use shell::{EdgeUse, FaceAddress, Shell, ShellEdge, ShellFace, Side};
 pub use surface::{NurbsSurface, SurfaceJet};

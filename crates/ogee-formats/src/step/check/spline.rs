@@ -214,7 +214,7 @@ impl Surface {
 
 /// Places and weights that integrate polynomials of this degree exactly on every knot span.
 fn gauss(knots: &Knots, degree: usize) -> Vec<(f64, f64)> {
-    let rule = legendre(degree / 2 + 1);
+    let rule = ogee::nurbs::gauss(degree / 2 + 1);
     let breaks = knots.breaks();
     breaks
         .windows(2)
@@ -225,45 +225,9 @@ fn gauss(knots: &Knots, degree: usize) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// The Gauss-Legendre rule of `n` points on [-1, 1].
-fn legendre(n: usize) -> Vec<(f64, f64)> {
-    (0..n)
-        .map(|k| {
-            let mut x = (std::f64::consts::PI * (k as f64 + 0.75) / (n as f64 + 0.5)).cos();
-            let mut slope = 1.0;
-            for _ in 0..100 {
-                let (mut before, mut value) = (1.0, x);
-                for i in 2..=n {
-                    let i = i as f64;
-                    (before, value) = (value, ((2.0 * i - 1.0) * x * value - (i - 1.0) * before) / i);
-                }
-                slope = n as f64 * (x * value - before) / (x * x - 1.0);
-                let step = value / slope;
-                x -= step;
-                if step.abs() < 1e-15 {
-                    break;
-                }
-            }
-            (x, 2.0 / ((1.0 - x * x) * slope * slope))
-        })
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn gauss_rules_are_exact() {
-        for n in 1..=12 {
-            let rule = legendre(n);
-            for power in 0..2 * n as i32 {
-                let sum: f64 = rule.iter().map(|&(x, weight)| weight * x.powi(power)).sum();
-                let exact = if power % 2 == 0 { 2.0 / f64::from(power + 1) } else { 0.0 };
-                assert!((sum - exact).abs() < 1e-14, "{n} points, power {power}");
-            }
-        }
-    }
 
     #[test]
     fn a_closed_curve_is_searched_at_both_ends() {
