@@ -1,9 +1,10 @@
-//! `Connectivity`: who meets whom, stored or not.
+//! `Connectivity`: who meets whom, whatever the layout.
 
+use super::topology::{Layout, NONE};
 use super::{EdgeId, FaceId, HalfedgeId, Topology, VertexId};
 
-/// What refinement asks of a mesh of halfedges. [`Topology`] has it in arrays; a level one step on follows from them by
-/// index arithmetic (`refine/split.rs`) and need not be stored to be asked.
+/// What refinement asks of a mesh of halfedges. [`Topology`] asks its layout at every step; [`Quads`] knows that there
+/// are four halfedges a face, which the inner loops are compiled for a second time.
 pub(crate) trait Connectivity: Sync {
     fn vertex_count(&self) -> usize;
     fn edge_count(&self) -> usize;
@@ -82,5 +83,92 @@ impl Connectivity for Topology {
     #[inline]
     fn outgoing(&self, v: VertexId) -> Option<HalfedgeId> {
         self.outgoing(v)
+    }
+}
+
+/// A topology of quads.
+#[derive(Clone, Copy)]
+pub(crate) struct Quads<'a> {
+    origin: &'a [u32],
+    twin: &'a [u32],
+    edge: &'a [u32],
+    first_side: &'a [u32],
+    outgoing: &'a [u32],
+}
+
+impl Topology {
+    /// This topology, if all faces are quads.
+    pub(crate) fn as_quads(&self) -> Option<Quads<'_>> {
+        match self.layout {
+            Layout::Polygons { .. } => None,
+            Layout::Quads => Some(Quads {
+                origin: &self.origin,
+                twin: &self.twin,
+                edge: &self.edge,
+                first_side: &self.first_side,
+                outgoing: &self.outgoing,
+            }),
+        }
+    }
+}
+
+impl Connectivity for Quads<'_> {
+    #[inline]
+    fn vertex_count(&self) -> usize {
+        self.outgoing.len()
+    }
+    #[inline]
+    fn edge_count(&self) -> usize {
+        self.first_side.len()
+    }
+    #[inline]
+    fn face_count(&self) -> usize {
+        self.origin.len() / 4
+    }
+    #[inline]
+    fn halfedge_count(&self) -> usize {
+        self.origin.len()
+    }
+    #[inline]
+    fn face_size(&self, _: FaceId) -> u32 {
+        4
+    }
+    #[inline]
+    fn first(&self, f: FaceId) -> HalfedgeId {
+        HalfedgeId(4 * f.0)
+    }
+    #[inline]
+    fn next(&self, h: HalfedgeId) -> HalfedgeId {
+        HalfedgeId((h.0 & !3) | ((h.0 + 1) & 3))
+    }
+    #[inline]
+    fn prev(&self, h: HalfedgeId) -> HalfedgeId {
+        HalfedgeId((h.0 & !3) | (h.0.wrapping_sub(1) & 3))
+    }
+    #[inline]
+    fn face(&self, h: HalfedgeId) -> FaceId {
+        FaceId(h.0 / 4)
+    }
+    #[inline]
+    fn origin(&self, h: HalfedgeId) -> VertexId {
+        VertexId(self.origin[h.index()])
+    }
+    #[inline]
+    fn twin(&self, h: HalfedgeId) -> Option<HalfedgeId> {
+        let twin = self.twin[h.index()];
+        (twin != NONE).then_some(HalfedgeId(twin))
+    }
+    #[inline]
+    fn edge(&self, h: HalfedgeId) -> EdgeId {
+        EdgeId(self.edge[h.index()])
+    }
+    #[inline]
+    fn side(&self, e: EdgeId) -> HalfedgeId {
+        HalfedgeId(self.first_side[e.index()])
+    }
+    #[inline]
+    fn outgoing(&self, v: VertexId) -> Option<HalfedgeId> {
+        let h = self.outgoing[v.index()];
+        (h != NONE).then_some(HalfedgeId(h))
     }
 }

@@ -2,8 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::points::untagged_points;
-use super::split::{Split, child_quad};
+use super::split::child_quad;
 use crate::math::{Interpolate, Vec3, par};
 use crate::mesh::connectivity::Connectivity;
 use crate::mesh::{FaceId, HalfedgeId};
@@ -73,35 +72,23 @@ impl Level {
     ) -> Result<(), TooDeep> {
         assert!(depth > 0, "a fine mesh is at least one step away");
         self.check_depth(depth, memory)?;
-        let plain = !self.has_tags() && self.hidden_faces().is_empty();
-        if depth == 1 {
-            self.last_step(points, mesh);
-            return Ok(());
-        }
         let mut level = Cow::Borrowed(self);
         let mut points = Cow::Borrowed(points);
-        for _ in 2..depth {
+        for _ in 1..depth {
             let (next, next_points) = level.refine_points(&points);
             (level, points) = (Cow::Owned(next), Cow::Owned(next_points));
         }
-        if !plain {
-            let (last, points) = level.refine_points(&points);
-            last.last_step(&points, mesh);
-            return Ok(());
-        }
-        // The last level but one is asked, not stored: that saves a third of the memory.
-        let mut last_points = Vec::new();
-        level.child_points(&points, &mut last_points);
-        let last = Split(level.topology());
-        untagged_points(&last, self.scheme().boundary, &last_points, &mut mesh.points);
-        write_quads(&last, &mut mesh.faces);
+        level.last_step(&points, mesh);
         Ok(())
     }
 
     fn last_step<T: Interpolate>(&self, points: &[T], mesh: &mut FineMesh<T>) {
         let topology = self.topology();
         self.child_points(points, &mut mesh.points);
-        write_quads(topology, &mut mesh.faces);
+        match topology.as_quads() {
+            Some(quads) => write_quads(&quads, &mut mesh.faces),
+            None => write_quads(topology, &mut mesh.faces),
+        }
         if !self.hidden_faces().is_empty() {
             let mut halfedge = 0;
             mesh.faces.retain(|_| {

@@ -32,18 +32,12 @@ impl Level {
             let tagged = !edge_rules.is_empty() && edge_rules.get(e.0).is_some();
             tagged.then(|| by_table(points, |row| masks::edge_mask(self, self.topology().side(e), row)))
         };
-        refine(self.topology(), self.scheme().boundary, points, out, tagged_vertex, tagged_edge);
+        let boundary = self.scheme().boundary;
+        match self.topology().as_quads() {
+            Some(quads) => refine(&quads, boundary, points, out, tagged_vertex, tagged_edge),
+            None => refine(self.topology(), boundary, points, out, tagged_vertex, tagged_edge),
+        }
     }
-}
-
-/// The points of the level after `topology`, which no tag touches.
-pub(super) fn untagged_points<T: Interpolate>(
-    topology: &impl Connectivity,
-    boundary: Boundary,
-    points: &[T],
-    out: &mut Vec<T>,
-) {
-    refine(topology, boundary, points, out, |_| None, |_| None);
 }
 
 /// `tagged_vertex` and `tagged_edge` give the points of elements that have a rule of their own.

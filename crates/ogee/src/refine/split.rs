@@ -23,9 +23,6 @@ use crate::mesh::connectivity::Connectivity;
 use crate::mesh::topology::{Layout, NONE};
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Topology, VertexId};
 
-/// The next level, asked but not stored.
-pub(crate) struct Split<'a>(pub(crate) &'a Topology);
-
 /// The corners of quad `h` of the next level, in its order `o, e, f, p`.
 #[inline]
 pub(crate) fn child_quad(parent: &impl Connectivity, h: HalfedgeId) -> [u32; 4] {
@@ -39,154 +36,85 @@ pub(crate) fn child_quad(parent: &impl Connectivity, h: HalfedgeId) -> [u32; 4] 
     ]
 }
 
-impl Split<'_> {
-    /// The twin of halfedge `4h + k`.
-    #[inline]
-    fn child_twin(&self, h: HalfedgeId, k: u32) -> u32 {
-        let parent = self.0;
-        match k {
-            0 => parent.twin(h).map_or(NONE, |twin| 4 * parent.next(twin).0 + 3),
-            1 => 4 * parent.next(h).0 + 2,
-            2 => 4 * parent.prev(h).0 + 1,
-            _ => parent.twin(parent.prev(h)).map_or(NONE, |twin| 4 * twin.0),
-        }
-    }
+/// The twins of the halfedges of quad `h` of the next level.
+#[inline]
+fn child_twins(parent: &impl Connectivity, h: HalfedgeId) -> [u32; 4] {
+    let prev = parent.prev(h);
+    [
+        parent.twin(h).map_or(NONE, |twin| 4 * parent.next(twin).0 + 3),
+        4 * parent.next(h).0 + 2,
+        4 * prev.0 + 1,
+        parent.twin(prev).map_or(NONE, |twin| 4 * twin.0),
+    ]
+}
 
-    /// The edge of halfedge `4h + k`. The half at the origin of the smaller halfedge is `2e`, the other `2e + 1`.
-    #[inline]
-    fn child_edge(&self, h: HalfedgeId, k: u32) -> u32 {
-        let parent = self.0;
-        let inner = 2 * parent.edge_count() as u32;
-        let prev = parent.prev(h);
-        match k {
-            // `NONE` is greater than all.
-            0 => 2 * parent.edge(h).0 + u32::from(parent.twin[h.index()] < h.0),
-            1 => inner + h.0,
-            2 => inner + prev.0,
-            _ => 2 * parent.edge(prev).0 + u32::from(parent.twin[prev.index()] > prev.0),
-        }
-    }
+/// The edges of the halfedges of quad `h` of the next level. The half at the origin of the smaller halfedge is `2e`,
+/// the other `2e + 1`.
+#[inline]
+fn child_edges(parent: &impl Connectivity, h: HalfedgeId) -> [u32; 4] {
+    let inner = 2 * parent.edge_count() as u32;
+    let prev = parent.prev(h);
+    let is_larger = |h: HalfedgeId| u32::from(parent.twin(h).is_some_and(|twin| twin < h));
+    [
+        2 * parent.edge(h).0 + is_larger(h),
+        inner + h.0,
+        inner + prev.0,
+        2 * parent.edge(prev).0 + 1 - is_larger(prev),
+    ]
+}
 
-    /// The smaller halfedge of an edge.
-    #[inline]
-    fn child_side(&self, e: u32) -> u32 {
-        let parent = self.0;
-        let halves = 2 * parent.edge_count() as u32;
-        if e >= halves {
-            let h = HalfedgeId(e - halves);
-            return (4 * h.0 + 1).min(4 * parent.next(h).0 + 2);
-        }
-        let h = parent.side(EdgeId(e / 2));
-        let twin = parent.twin(h);
-        if e.is_multiple_of(2) {
-            twin.map_or(4 * h.0, |twin| (4 * h.0).min(4 * parent.next(twin).0 + 3))
-        } else {
-            let far = 4 * parent.next(h).0 + 3;
-            twin.map_or(far, |twin| far.min(4 * twin.0))
-        }
+/// The smaller halfedge of an edge of the next level.
+#[inline]
+fn child_side(parent: &impl Connectivity, e: u32) -> u32 {
+    let halves = 2 * parent.edge_count() as u32;
+    if e >= halves {
+        let h = HalfedgeId(e - halves);
+        return (4 * h.0 + 1).min(4 * parent.next(h).0 + 2);
     }
-
-    /// A halfedge that leaves a vertex, on a boundary the one without twin.
-    #[inline]
-    fn child_outgoing(&self, v: u32) -> u32 {
-        let parent = self.0;
-        let (vertices, faces) = (parent.vertex_count() as u32, parent.face_count() as u32);
-        if v < vertices {
-            let h = parent.outgoing[v as usize];
-            if h == NONE { NONE } else { 4 * h }
-        } else if v < vertices + faces {
-            4 * parent.first(FaceId(v - vertices)).0 + 2
-        } else {
-            // Where the edge is a boundary this halfedge has no twin either.
-            4 * parent.next(parent.side(EdgeId(v - vertices - faces))).0 + 3
-        }
+    let h = parent.side(EdgeId(e / 2));
+    let twin = parent.twin(h);
+    if e.is_multiple_of(2) {
+        twin.map_or(4 * h.0, |twin| (4 * h.0).min(4 * parent.next(twin).0 + 3))
+    } else {
+        let far = 4 * parent.next(h).0 + 3;
+        twin.map_or(far, |twin| far.min(4 * twin.0))
     }
 }
 
-impl Connectivity for Split<'_> {
-    #[inline]
-    fn vertex_count(&self) -> usize {
-        self.0.vertex_count() + self.0.face_count() + self.0.edge_count()
-    }
-    #[inline]
-    fn edge_count(&self) -> usize {
-        2 * self.0.edge_count() + self.0.halfedge_count()
-    }
-    #[inline]
-    fn face_count(&self) -> usize {
-        self.0.halfedge_count()
-    }
-    #[inline]
-    fn halfedge_count(&self) -> usize {
-        4 * self.0.halfedge_count()
-    }
-    #[inline]
-    fn face_size(&self, _: FaceId) -> u32 {
-        4
-    }
-    #[inline]
-    fn first(&self, f: FaceId) -> HalfedgeId {
-        HalfedgeId(4 * f.0)
-    }
-    #[inline]
-    fn next(&self, h: HalfedgeId) -> HalfedgeId {
-        HalfedgeId((h.0 & !3) | ((h.0 + 1) & 3))
-    }
-    #[inline]
-    fn prev(&self, h: HalfedgeId) -> HalfedgeId {
-        HalfedgeId((h.0 & !3) | (h.0.wrapping_sub(1) & 3))
-    }
-    #[inline]
-    fn face(&self, h: HalfedgeId) -> FaceId {
-        FaceId(h.0 / 4)
-    }
-    #[inline]
-    fn origin(&self, h: HalfedgeId) -> VertexId {
-        let parent = HalfedgeId(h.0 / 4);
-        let vertices = self.0.vertex_count() as u32;
-        let edge_points = vertices + self.0.face_count() as u32;
-        VertexId(match h.0 & 3 {
-            0 => self.0.origin(parent).0,
-            1 => edge_points + self.0.edge(parent).0,
-            2 => vertices + self.0.face(parent).0,
-            _ => edge_points + self.0.edge(self.0.prev(parent)).0,
-        })
-    }
-    #[inline]
-    fn twin(&self, h: HalfedgeId) -> Option<HalfedgeId> {
-        let twin = self.child_twin(HalfedgeId(h.0 / 4), h.0 & 3);
-        (twin != NONE).then_some(HalfedgeId(twin))
-    }
-    #[inline]
-    fn edge(&self, h: HalfedgeId) -> EdgeId {
-        EdgeId(self.child_edge(HalfedgeId(h.0 / 4), h.0 & 3))
-    }
-    #[inline]
-    fn side(&self, e: EdgeId) -> HalfedgeId {
-        HalfedgeId(self.child_side(e.0))
-    }
-    #[inline]
-    fn outgoing(&self, v: VertexId) -> Option<HalfedgeId> {
-        let h = self.child_outgoing(v.0);
-        (h != NONE).then_some(HalfedgeId(h))
+/// A halfedge that leaves a vertex of the next level, on a boundary the one without twin.
+#[inline]
+fn child_outgoing(parent: &impl Connectivity, v: u32) -> u32 {
+    let (vertices, faces) = (parent.vertex_count() as u32, parent.face_count() as u32);
+    if v < vertices {
+        parent.outgoing(VertexId(v)).map_or(NONE, |h| 4 * h.0)
+    } else if v < vertices + faces {
+        4 * parent.first(FaceId(v - vertices)).0 + 2
+    } else {
+        // Where the edge is a boundary this halfedge has no twin either.
+        4 * parent.next(parent.side(EdgeId(v - vertices - faces))).0 + 3
     }
 }
 
 impl Topology {
-    /// The topology one step on, stored. The caller has made sure that `4H` fits.
+    /// The topology one step on. The caller has made sure that `4H` fits.
     pub(crate) fn split(&self) -> Topology {
-        let split = Split(self);
-        let halfedges = self.halfedge_count();
-        let of_quads = |of: &(dyn Fn(HalfedgeId) -> [u32; 4] + Sync)| -> Vec<u32> {
-            par::collect(halfedges, |h| of(HalfedgeId(h as u32))).into_flattened()
-        };
-        Topology {
-            origin: of_quads(&|h| child_quad(self, h)),
-            twin: of_quads(&|h| std::array::from_fn(|k| split.child_twin(h, k as u32))),
-            edge: of_quads(&|h| std::array::from_fn(|k| split.child_edge(h, k as u32))),
-            first_side: par::collect(split.edge_count(), |e| split.child_side(e as u32)),
-            outgoing: par::collect(split.vertex_count(), |v| split.child_outgoing(v as u32)),
-            layout: Layout::Quads,
+        match self.as_quads() {
+            Some(quads) => split(&quads),
+            None => split(self),
         }
+    }
+}
+
+fn split(parent: &impl Connectivity) -> Topology {
+    let (vertices, edges) = (parent.vertex_count(), parent.edge_count());
+    let (faces, halfedges) = (parent.face_count(), parent.halfedge_count());
+    let half = |h: usize| HalfedgeId(h as u32);
+    Topology {
+        origin: par::collect(halfedges, |h| child_quad(parent, half(h))).into_flattened(),
+        twin: par::collect(halfedges, |h| child_twins(parent, half(h))).into_flattened(),
+        edge: par::collect(halfedges, |h| child_edges(parent, half(h))).into_flattened(),
+        first_side: par::collect(2 * edges + halfedges, |e| child_side(parent, e as u32)),
+        outgoing: par::collect(vertices + faces + edges, |v| child_outgoing(parent, v as u32)),
+        layout: Layout::Quads,
     }
 }
