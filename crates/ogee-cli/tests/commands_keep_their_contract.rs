@@ -123,6 +123,39 @@ fn refine_reaches_the_limit() {
 }
 
 #[test]
+fn texture_coordinates_are_refined_beside_the_points() {
+    let folder = Folder::new();
+    // Two quads with charts of their own: the shared edge is a seam.
+    folder.write(
+        "cage.obj",
+        "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\n\
+         vt 0 0\nvt 0.4 0\nvt 0.4 1\nvt 0 1\nvt 0.6 0\nvt 1 0\nvt 1 1\nvt 0.6 1\n\
+         f 1/1 2/2 5/3 4/4\nf 2/5 3/6 6/7 5/8\n",
+    );
+    for (options, format) in [("-l 1", "obj"), ("-l 2 --limit", "obj"), ("-l 3", "json")] {
+        folder.ogee(&format!("refine cage.obj {options} -o out.{format}")).expect(0);
+        let text = String::from_utf8(folder.read(&format!("out.{format}"))).unwrap();
+        if format == "json" {
+            let out: Value = serde_json::from_str(&text).unwrap();
+            assert_eq!(out["face_uvs"].as_array().unwrap().len(), 2 * 64);
+            continue;
+        }
+        let values: Vec<Vec<f64>> = text
+            .lines()
+            .filter_map(|line| line.strip_prefix("vt "))
+            .map(|line| line.split(' ').map(|x| x.parse().unwrap()).collect())
+            .collect();
+        let side = if options == "-l 1" { 3 } else { 5 };
+        assert_eq!(values.len(), 2 * side * side, "two charts");
+        // Corners of charts are held by one face and stay; nothing lies between the charts.
+        assert!(values.contains(&vec![0.4, 1.0]) && values.contains(&vec![0.6, 0.0]), "{values:?}");
+        assert!(values.iter().all(|uv| uv[0] <= 0.4 || uv[0] >= 0.6));
+        let faces = text.lines().filter(|line| line.starts_with("f "));
+        assert!(faces.clone().all(|face| face.split(' ').skip(1).all(|corner| corner.contains('/'))));
+    }
+}
+
+#[test]
 fn level_zero_is_the_cage_without_its_holes() {
     let folder = Folder::new();
     folder.write(
