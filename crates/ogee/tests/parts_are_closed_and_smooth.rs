@@ -239,3 +239,132 @@ fn what_has_no_rule_is_refused_by_name() {
         "sharp_edge"
     );
 }
+
+/// A cube refined `steps` times, scaled, faces turned inward if asked, each beginning at another corner.
+fn refined_cube(steps: u32, scale: f64, inward: bool, turn: usize) -> ControlMesh {
+    let cube = shapes::cube();
+    let fine = ogee::Level::new(&cube).unwrap().fine_mesh(&cube.points, steps, u64::MAX).unwrap();
+    let faces = fine.faces.into_iter().map(|mut face| {
+        if inward {
+            face.reverse();
+        }
+        face.rotate_left(turn);
+        face
+    });
+    ControlMesh::new(fine.points.into_iter().map(|p| scale * p).collect(), faces.collect())
+}
+
+fn joined(a: &ControlMesh, b: &ControlMesh) -> ControlMesh {
+    let mut mesh = a.clone();
+    let offset = mesh.points.len() as u32;
+    mesh.points.extend(&b.points);
+    b.faces.iter().for_each(|face| mesh.faces.push(&face.iter().map(|v| v + offset).collect::<Vec<_>>()));
+    mesh
+}
+
+#[test]
+fn thin_walls_are_walls() {
+    let cube = shapes::cube();
+    let outer = to_part(&cube, &Options::default()).unwrap().report.volume.unwrap();
+    for scale in [0.95, 0.99, 0.999] {
+        for turn in 0..4 {
+            let mesh = joined(&cube, &refined_cube(2, scale, true, turn));
+            for packing in [Packing::Packed, Packing::Unpacked] {
+                let report = to_part(&mesh, &Options { packing, ..Options::default() }).unwrap().report;
+                assert_eq!((report.solids, report.shells), (1, 2), "wall {scale}, turn {turn}");
+                assert!(report.volume.unwrap() < outer * 0.2, "wall {scale}, turn {turn}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_box_holds_the_surface() {
+    for (name, document) in documents("pccm") {
+        if document["method"].is_null() {
+            continue;
+        }
+        let mesh = cage(&document["cage"], &serde_json::Value::Null);
+        let boxes = [Packing::Packed, Packing::Unpacked].map(|packing| {
+            let part = to_part(&mesh, &Options { packing, method: Method::PccmFirst, ..Options::default() })
+                .unwrap();
+            let [low, high] = part.report.bounding_box;
+            let slack = 1e-9 * mesh.size();
+            let mut reached = [
+                Vec3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY),
+                -Vec3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY),
+            ];
+            for face in part.bodies.iter().flat_map(Body::shells).flat_map(|shell| &shell.faces) {
+                let ([u0, u1], [v0, v1]) = (face.surface.u.domain(), face.surface.v.domain());
+                for i in 0..=60 {
+                    for j in 0..=60 {
+                        let (s, t) = (f64::from(i) / 60.0, f64::from(j) / 60.0);
+                        let p = face.surface.jet(u0 + s * (u1 - u0), v0 + t * (v1 - v0)).position;
+                        reached = [reached[0].min(p), reached[1].max(p)];
+                        assert!(
+                            (0..3).all(|k| low[k] - slack <= p[k] && p[k] <= high[k] + slack),
+                            "{name}: {p:?}"
+                        );
+                    }
+                }
+            }
+            // Not too large either: samples come close.
+            assert!(reached[0].distance(low) + reached[1].distance(high) < 1e-2 * mesh.size(), "{name}");
+            [low, high]
+        });
+        assert!(
+            boxes[0][0].distance(boxes[1][0]) + boxes[0][1].distance(boxes[1][1]) < 1e-7 * mesh.size(),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn curvature_jumps_are_seen_on_every_level() {
+    let (_, document) =
+        documents("pccm").into_iter().find(|(name, _)| name == "cube_skew_second_l3").unwrap();
+    let mesh = cage(&document["cage"], &serde_json::Value::Null);
+    for method in [Method::Pccm, Method::PccmFirst] {
+        for level in 2..=6 {
+            let report =
+                to_part(&mesh, &Options { method, level: Some(level), ..Options::default() }).unwrap().report;
+            println!("{method:?} level {level}: jump {:.3}", report.max_curvature_jump);
+            // The construction is tangent-continuous and no more: a skew corner of three faces shows it.
+            assert!(
+                report.max_curvature_jump > 0.05,
+                "{method:?} level {level}: {}",
+                report.max_curvature_jump
+            );
+        }
+    }
+}
+
+#[test]
+fn figures_are_those_of_what_is_written() {
+    let mut far = shapes::studded_torus(12, 12, 6);
+    far.points.iter_mut().for_each(|p| *p += Vec3::new(1e9, 0.0, 0.0));
+    let report = to_part(&far, &Options::default()).unwrap().report;
+    // Coordinates of 1e9 are good to 1e-7.
+    assert!(report.max_normal_angle_deg > 1e-8, "{}", report.max_normal_angle_deg);
+    let mut flat = shapes::cube();
+    flat.points.iter_mut().for_each(|p| p.z = 0.0);
+    let report = to_part(&flat, &Options::default()).unwrap().report;
+    assert!(report.notes.iter().any(|note| note.code == "no_volume"));
+}
+
+#[test]
+fn refined_quintics_are_named_by_corner() {
+    let part =
+        to_part(&shapes::cube(), &Options { method: Method::Bi5, level: Some(1), ..Options::default() })
+            .unwrap();
+    let mut names: Vec<String> = part
+        .bodies
+        .iter()
+        .flat_map(Body::shells)
+        .flat_map(|shell| &shell.faces)
+        .map(|face| face.address().to_string())
+        .collect();
+    names.sort();
+    names.dedup();
+    assert_eq!(names.len(), 24);
+}

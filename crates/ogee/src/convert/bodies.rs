@@ -1,46 +1,40 @@
 //! Bodies: closed shells become solids, closed shells inside them voids, open ones sheets.
 
-use super::measure::{bounding_box, volume_and_area};
+use super::measure::volume_and_area;
 use super::part::Body;
-use crate::math::Vec3;
+use crate::math::{Grid, Vec3, par};
 use crate::mesh::{Note, Place};
 use crate::nurbs::Shell;
 
 /// Cells a side into which a quad is cut to ask whether a point is inside a shell.
 const CELLS: usize = 6;
 
+/// Pairs of samples whose middle is tried as a point deep inside a shell.
+const TRIALS: usize = 24;
+
 /// Sorts shells into bodies, and turns those round that face the wrong way. The order is that of the shells.
 pub(super) fn bodies(shells: Vec<Shell>, notes: &mut Vec<Note>) -> Vec<Body> {
-    let depths = nesting_depths(&shells);
-    let oriented: Vec<(Shell, Option<usize>)> = shells
-        .into_iter()
-        .zip(depths)
-        .map(|(shell, depth)| match depth {
-            Some(depth) => (outward(shell, depth, notes), Some(depth)),
-            None => (shell, None),
-        })
-        .collect();
-    let outers: Vec<usize> =
-        (0..oriented.len()).filter(|&i| matches!(oriented[i].1, Some(d) if d % 2 == 0)).collect();
+    let around = shells_around(&shells);
+    let depth = |i: usize| around[i].as_ref().map(Vec::len);
     // A void belongs to the innermost solid around it.
     let owner = |inner: usize| {
-        let depth = oriented[inner].1?;
-        let around = outers.iter().copied().filter(|&o| oriented[o].1 == Some(depth - 1));
-        around.into_iter().find(|&o| contains(&oriented[o].0, first_point(&oriented[inner].0)))
+        let around = around[inner].as_ref().filter(|around| around.len() % 2 == 1)?;
+        around.iter().copied().find(|&outer| depth(outer) == Some(around.len() - 1))
     };
-    let owners: Vec<Option<usize>> =
-        (0..oriented.len()).map(|i| if outers.contains(&i) { None } else { owner(i) }).collect();
     let mut out: Vec<(usize, Body)> = Vec::new();
     let mut voids: Vec<(usize, Shell)> = Vec::new();
-    for (number, (shell, depth)) in oriented.into_iter().enumerate() {
-        match (depth, owners[number]) {
+    for (number, shell) in shells.into_iter().enumerate() {
+        match (depth(number), owner(number)) {
             (None, _) => out.push((number, Body::Sheet(shell))),
-            (Some(_), Some(owner)) => voids.push((owner, shell)),
-            (Some(_), None) => out.push((number, Body::Solid { outer: shell, voids: Vec::new() })),
+            (Some(depth), Some(owner)) => voids.push((owner, outward(shell, depth, notes))),
+            (Some(depth), None) => {
+                out.push((number, Body::Solid { outer: outward(shell, depth, notes), voids: Vec::new() }));
+            }
         }
     }
     for (owner, void) in voids {
-        if let Some((_, Body::Solid { voids, .. })) = out.iter_mut().find(|(number, _)| *number == owner) {
+        let found = out.binary_search_by_key(&owner, |(number, _)| *number).map(|at| &mut out[at].1);
+        if let Ok(Body::Solid { voids, .. }) = found {
             voids.push(void);
         }
     }
@@ -62,47 +56,94 @@ fn outward(shell: Shell, depth: usize, notes: &mut Vec<Note>) -> Shell {
     if inside_out { shell.reversed() } else { shell }
 }
 
-/// For each closed shell the number of closed shells around it; `None` for open ones.
-fn nesting_depths(shells: &[Shell]) -> Vec<Option<usize>> {
-    let closed: Vec<bool> = shells.iter().map(Shell::is_closed).collect();
-    if closed.iter().filter(|&&closed| closed).count() < 2 {
-        return closed.into_iter().map(|closed| closed.then_some(0)).collect();
+/// For each closed shell the closed shells around it; `None` for open ones.
+fn shells_around(shells: &[Shell]) -> Vec<Option<Vec<usize>>> {
+    let closed: Vec<usize> = (0..shells.len()).filter(|&i| shells[i].is_closed()).collect();
+    let mut around: Vec<Option<Vec<usize>>> = vec![None; shells.len()];
+    for &i in &closed {
+        around[i] = Some(Vec::new());
     }
-    let boxes: Vec<Option<[Vec3; 2]>> = shells.iter().map(bounding_box).collect();
-    let is_inside = |inner: usize, outer: usize| {
-        let (Some([a, b]), Some([low, high])) = (boxes[inner], boxes[outer]) else { return false };
-        low.min(a) == low && high.max(b) == high && contains(&shells[outer], first_point(&shells[inner]))
-    };
-    (0..shells.len())
-        .map(|i| {
-            closed[i].then(|| (0..shells.len()).filter(|&o| o != i && closed[o] && is_inside(i, o)).count())
-        })
-        .collect()
+    if closed.len() < 2 {
+        return around;
+    }
+    let solids = par::map(closed.len(), |i| Sampled::new(&shells[closed[i]]));
+    let found = par::map(closed.len(), |i| {
+        let inner = &solids[i];
+        let candidates = (0..closed.len()).filter(|&o| o != i && solids[o].boxes_in(inner));
+        let mut point = None;
+        candidates
+            .filter(|&o| solids[o].contains(*point.get_or_insert_with(|| inner.deep_point())))
+            .map(|o| closed[o])
+            .collect::<Vec<usize>>()
+    });
+    for (i, found) in closed.into_iter().zip(found) {
+        around[i] = Some(found);
+    }
+    around
 }
 
-fn first_point(shell: &Shell) -> Vec3 {
-    shell.faces[0].surface.net[(0, 0)]
+/// A closed shell as triangles.
+struct Sampled {
+    low: Vec3,
+    high: Vec3,
+    grids: Vec<Grid<Vec3>>,
 }
 
-/// The winding number of a shell around a point, by the solid angles of a triangulation.
-fn contains(shell: &Shell, point: Vec3) -> bool {
-    let mut angle = 0.0;
-    for face in &shell.faces {
-        let surface = &face.surface;
-        let steps = (face.quads.rows() * CELLS, face.quads.cols() * CELLS);
-        let ([u0, u1], [v0, v1]) = (surface.u.domain(), surface.v.domain());
-        let at = |i: usize, j: usize| {
-            let (s, t) = (i as f64 / steps.0 as f64, j as f64 / steps.1 as f64);
-            surface.jet(u0 + s * (u1 - u0), v0 + t * (v1 - v0)).position - point
-        };
-        for i in 0..steps.0 {
-            for j in 0..steps.1 {
-                let (a, b, c, d) = (at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-                angle += solid_angle(a, b, c) + solid_angle(a, c, d);
+impl Sampled {
+    fn new(shell: &Shell) -> Sampled {
+        let grids = shell.faces.iter().map(|face| {
+            let surface = &face.surface;
+            let steps = (face.quads.rows() * CELLS, face.quads.cols() * CELLS);
+            let ([u0, u1], [v0, v1]) = (surface.u.domain(), surface.v.domain());
+            Grid::from_fn(steps.0 + 1, steps.1 + 1, |i, j| {
+                let (s, t) = (i as f64 / steps.0 as f64, j as f64 / steps.1 as f64);
+                surface.jet(u0 + s * (u1 - u0), v0 + t * (v1 - v0)).position
+            })
+        });
+        let grids: Vec<Grid<Vec3>> = grids.collect();
+        let first = grids[0][(0, 0)];
+        let points = grids.iter().flat_map(|grid| grid.cells());
+        let (low, high) = points.fold((first, first), |(low, high), &p| (low.min(p), high.max(p)));
+        Sampled { low, high, grids }
+    }
+
+    /// True if the box of `inner` lies inside that of this shell.
+    fn boxes_in(&self, inner: &Sampled) -> bool {
+        self.low.min(inner.low) == self.low && self.high.max(inner.high) == self.high
+    }
+
+    /// A point well inside: thin walls keep the shells apart there. Of the middles of some pairs of samples the one
+    /// inside that is farthest from all samples; where none is inside, a sample.
+    fn deep_point(&self) -> Vec3 {
+        let samples: Vec<Vec3> = self.grids.iter().map(|grid| grid[(0, 0)]).collect();
+        let count = samples.len();
+        let mut best = (0.0, samples[0]);
+        for trial in 0..TRIALS.min(count * count) {
+            // Spread over the list, near and far partners alike.
+            let (i, j) = (trial * count / TRIALS, (trial * count / TRIALS + count / 2 + trial % 3) % count);
+            let middle = samples[i].lerp(samples[j], 0.5);
+            let near = samples.iter().map(|&p| p.distance(middle)).fold(f64::INFINITY, f64::min);
+            if near > best.0 && self.contains(middle) {
+                best = (near, middle);
             }
         }
+        best.1
     }
-    angle.abs() > 2.0 * std::f64::consts::PI
+
+    /// The winding number around a point, by solid angles.
+    fn contains(&self, point: Vec3) -> bool {
+        let mut angle = 0.0;
+        for grid in &self.grids {
+            for i in 0..grid.rows() - 1 {
+                for j in 0..grid.cols() - 1 {
+                    let at = |i: usize, j: usize| grid[(i, j)] - point;
+                    let (a, b, c, d) = (at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+                    angle += solid_angle(a, b, c) + solid_angle(a, c, d);
+                }
+            }
+        }
+        angle.abs() > 2.0 * std::f64::consts::PI
+    }
 }
 
 /// Van Oosterom and Strackee, The solid angle of a plane triangle (1983).

@@ -1,12 +1,10 @@
 //! Figures of shells: continuity over edges, volume, area, extent.
 
-use crate::math::{Vec3, par};
-use crate::nurbs::{EdgeUse, KnotVector, Shell, ShellFace, Side, gauss};
+use crate::math::{Grid, Vec3, par};
+use crate::nurbs::{EdgeUse, KnotVector, NurbsSurface, Shell, ShellFace, Side, gauss};
 
-/// Samples of position and normal along an edge: so many on each of its end quads, where smoothing was at work, ends
-/// included, and fewer on each quad between.
-const SAMPLES_AT_ENDS: usize = 33;
-const SAMPLES_BETWEEN: usize = 4;
+/// Steps between two knots of either side, along an edge.
+const STEPS_PER_SPAN: usize = 8;
 
 /// Sine of the angle between `du` and `dv` below which a corner counts as singular: its normal is noise.
 const SINGULAR: f64 = 1e-9;
@@ -64,7 +62,7 @@ fn across(a: &ShellFace, first: EdgeUse, b: &ShellFace, second: EdgeUse, smooth:
         let (u, v) = face.surface.on_side(used.side, from + t * (to - from));
         face.surface.jet(u, v)
     };
-    let stations = stations((first.range[1] - first.range[0]).abs());
+    let stations = stations(a, first, b, second);
     for (k, &t) in stations.iter().enumerate() {
         let (here, there) = (at(a, first, t), at(b, second, t));
         found.max_gap = found.max_gap.max(here.position.distance(there.position));
@@ -95,18 +93,28 @@ fn across(a: &ShellFace, first: EdgeUse, b: &ShellFace, second: EdgeUse, smooth:
     found
 }
 
-/// Where an edge of so many quads is sampled, in `[0, 1]`.
-fn stations(quads: f64) -> Vec<f64> {
-    let steps = (SAMPLES_AT_ENDS - 1) as f64;
-    if quads <= 2.0 {
-        let steps = (steps * quads).round();
-        return (0..=steps as u32).map(|k| f64::from(k) / steps).collect();
+/// Where an edge is sampled, in `[0, 1]` along its first use: on all knots of both sides, and between them.
+fn stations(a: &ShellFace, first: EdgeUse, b: &ShellFace, second: EdgeUse) -> Vec<f64> {
+    let mut breaks = vec![0.0, 1.0];
+    for (face, used) in [(a, first), (b, second)] {
+        let knots = match used.side {
+            Side::V0 | Side::V1 => face.surface.u.knots(),
+            Side::U0 | Side::U1 => face.surface.v.knots(),
+        };
+        let [from, to] = used.range;
+        let inside = knots.iter().map(|knot| (knot - from) / (to - from)).filter(|t| (0.0..=1.0).contains(t));
+        breaks.extend(inside.map(|t| if used.forward == first.forward { t } else { 1.0 - t }));
     }
-    let at_start = (0..SAMPLES_AT_ENDS - 1).map(|k| k as f64 / steps);
-    let between = (SAMPLES_BETWEEN as f64 * (quads - 2.0)).round();
-    let middle = (0..between as u32).map(|k| 1.0 + (quads - 2.0) * f64::from(k) / between);
-    let at_end = (0..SAMPLES_AT_ENDS).map(|k| quads - 1.0 + k as f64 / steps);
-    at_start.chain(middle).chain(at_end).map(|t| t / quads).collect()
+    breaks.sort_by(f64::total_cmp);
+    // Knots of both sides that differ by rounding are one.
+    breaks.dedup_by(|next, kept| *next - *kept < 1e-9);
+    let mut stations = vec![0.0];
+    for span in breaks.windows(2) {
+        let step = (span[1] - span[0]) / STEPS_PER_SPAN as f64;
+        stations.extend((1..STEPS_PER_SPAN).map(|k| span[0] + k as f64 * step));
+        stations.push(span[1]);
+    }
+    stations
 }
 
 /// Enclosed volume (meaningful for a closed shell) and area.
@@ -142,14 +150,14 @@ pub(super) fn volume_and_area(shell: &Shell) -> (f64, f64) {
     faces.into_iter().fold((0.0, 0.0), |sum, face| (sum.0 + face.0, sum.1 + face.1))
 }
 
-/// The bounding box of the surfaces themselves: extremes over samples, sharpened by Newton's method.
+/// The bounding box of the surfaces themselves: extremes over samples, each climbed to its top.
 pub(super) fn bounding_box(shell: &Shell) -> Option<[Vec3; 2]> {
     let boxes = par::map(shell.faces.len(), |face| face_box(&shell.faces[face]));
     boxes.into_iter().reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
 }
 
 fn face_box(face: &ShellFace) -> [Vec3; 2] {
-    const PER_SPAN: usize = 4;
+    const PER_SPAN: usize = 3;
     let surface = &face.surface;
     let stations = |knots: &KnotVector| {
         let mut out = vec![knots.domain()[0]];
@@ -160,45 +168,90 @@ fn face_box(face: &ShellFace) -> [Vec3; 2] {
         out
     };
     let (us, vs) = (stations(&surface.u), stations(&surface.v));
-    let start = surface.jet(us[0], vs[0]).position;
-    let mut extremes = [[(start, us[0], vs[0]); 3]; 2];
-    for &u in &us {
-        for &v in &vs {
-            let p = surface.jet(u, v).position;
-            for axis in 0..3 {
-                if p[axis] < extremes[0][axis].0[axis] {
-                    extremes[0][axis] = (p, u, v);
-                }
-                if p[axis] > extremes[1][axis].0[axis] {
-                    extremes[1][axis] = (p, u, v);
+    let (bases_u, bases_v): (Vec<_>, Vec<_>) =
+        (us.iter().map(|&u| surface.u.basis(u)).collect(), vs.iter().map(|&v| surface.v.basis(v)).collect());
+    let samples =
+        Grid::from_fn(us.len(), vs.len(), |i, j| surface.tangents_from(&bases_u[i], &bases_v[j])[0]);
+    let [low, high] =
+        samples.cells().iter().fold([samples[(0, 0)]; 2], |[low, high], &p| [low.min(p), high.max(p)]);
+    // What a sample can be short of its hill: generous, since a wrong box is worse than a few steps more.
+    let slack = low.distance(high) / 10.0;
+    let mut found = [low, high];
+    for (side, sign) in [(0, -1.0), (1, 1.0)] {
+        let extreme = |axis: usize| {
+            let value = |i: usize, j: usize| sign * samples[(i, j)][axis];
+            let mut best = sign * found[side][axis];
+            let least = best - slack;
+            for i in 0..us.len() {
+                for j in 0..vs.len() {
+                    let around = [(i.wrapping_sub(1), j), (i + 1, j), (i, j.wrapping_sub(1)), (i, j + 1)];
+                    let is_top = around
+                        .into_iter()
+                        .filter(|&(i, j)| i < us.len() && j < vs.len())
+                        .all(|(x, y)| value(x, y) <= value(i, j));
+                    if is_top && value(i, j) >= least {
+                        best = best.max(climb(surface, (us[i], vs[j]), axis, sign));
+                    }
                 }
             }
-        }
+            sign * best
+        };
+        found[side] = Vec3::new(extreme(0), extreme(1), extreme(2));
     }
-    let sharpened = |side: usize, axis: usize| {
-        let (p, u, v) = extremes[side][axis];
-        let better = sharpen(face, u, v, axis);
-        if side == 0 { better.min(p[axis]) } else { better.max(p[axis]) }
-    };
-    [0, 1].map(|side| Vec3::new(sharpened(side, 0), sharpened(side, 1), sharpened(side, 2)))
+    found
 }
 
-/// A few Newton steps towards the extreme of a coordinate near a sample.
-fn sharpen(face: &ShellFace, mut u: f64, mut v: f64, axis: usize) -> f64 {
-    let surface = &face.surface;
+/// The top of the hill of `sign` times a coordinate near given parameters, by Newton's steps where the hill is round
+/// and steepest ascent where it is not; on a side of the patch along that side.
+fn climb(surface: &NurbsSurface, start: (f64, f64), axis: usize, sign: f64) -> f64 {
+    const STEPS: usize = 24;
+    const HALVINGS: usize = 8;
     let ([u0, u1], [v0, v1]) = (surface.u.domain(), surface.v.domain());
-    let mut value = surface.jet(u, v).position[axis];
-    for _ in 0..6 {
-        let jet = surface.jet(u, v);
-        let (gu, gv) = (jet.du[axis], jet.dv[axis]);
-        let (a, b, c) = (jet.duu[axis], jet.duv[axis], jet.dvv[axis]);
-        let determinant = a * c - b * b;
-        if determinant <= 0.0 {
+    let (mut u, mut v) = start;
+    let mut jet = surface.jet(u, v);
+    for _ in 0..STEPS {
+        let (mut gu, mut gv) = (sign * jet.du[axis], sign * jet.dv[axis]);
+        let (a, b, c) = (sign * jet.duu[axis], sign * jet.duv[axis], sign * jet.dvv[axis]);
+        let held_u = u == u0 && gu < 0.0 || u == u1 && gu > 0.0;
+        let held_v = v == v0 && gv < 0.0 || v == v1 && gv > 0.0;
+        if held_u {
+            gu = 0.0;
+        }
+        if held_v {
+            gv = 0.0;
+        }
+        if gu == 0.0 && gv == 0.0 {
             break;
         }
-        u = (u - (c * gu - b * gv) / determinant).clamp(u0, u1);
-        v = (v - (a * gv - b * gu) / determinant).clamp(v0, v1);
-        value = surface.jet(u, v).position[axis];
+        let steepest = {
+            // About a third of a quad at first.
+            let length = gu.hypot(gv);
+            (gu / length / 3.0, gv / length / 3.0)
+        };
+        let determinant = a * c - b * b;
+        let (du, dv) = match (held_u, held_v) {
+            (true, _) if c < 0.0 => (0.0, -gv / c),
+            (_, true) if a < 0.0 => (-gu / a, 0.0),
+            (false, false) if a < 0.0 && determinant > 0.0 => {
+                (-(c * gu - b * gv) / determinant, -(a * gv - b * gu) / determinant)
+            }
+            _ => steepest,
+        };
+        let value = sign * jet.position[axis];
+        let mut scale = 1.0;
+        let mut gained = false;
+        for _ in 0..HALVINGS {
+            let (next_u, next_v) = ((u + scale * du).clamp(u0, u1), (v + scale * dv).clamp(v0, v1));
+            let next = surface.jet(next_u, next_v);
+            if sign * next.position[axis] > value {
+                (u, v, jet, gained) = (next_u, next_v, next, true);
+                break;
+            }
+            scale /= 2.0;
+        }
+        if !gained {
+            break;
+        }
     }
-    value
+    sign * jet.position[axis]
 }

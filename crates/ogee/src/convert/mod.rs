@@ -315,6 +315,17 @@ impl<'a> Converted<'a> {
         charts.into_iter().zip(surfaces).map(|(chart, surface)| Face { chart, surface }).collect()
     }
 
+    /// The piece of the cage that a quad of the base is. A quintic base that was refined has a patch per corner.
+    fn address(&self, source: &Source, quad: u32) -> FaceAddress {
+        let whole = source.addresses[self.source_quads[quad as usize] as usize];
+        match (&self.kind, whole.corner) {
+            (Kind::Quintic, None) if self.level > 0 => {
+                FaceAddress { corner: Some(quad >> (2 * (self.level - 1)) & 3), ..whole }
+            }
+            _ => whole,
+        }
+    }
+
     fn broken(&self) -> &[HalfedgeId] {
         match &self.kind {
             Kind::Bicubic { patches, .. } => &patches.broken,
@@ -330,6 +341,9 @@ impl<'a> Converted<'a> {
     }
 }
 
+/// Share of the cube of the cage's size below which a closed part encloses nothing.
+const NO_VOLUME: f64 = 1e-12;
+
 /// Sews, sorts, measures, and moves the part back to where the cage was.
 fn finish(
     source: &Source,
@@ -340,9 +354,13 @@ fn finish(
 ) -> Part {
     let mut all_notes = notes(mesh);
     all_notes.extend_from_slice(patches.notes());
-    let address = |quad: u32| source.addresses[patches.source_quads[quad as usize] as usize];
+    let address = |quad: u32| patches.address(source, quad);
     let shells = sew::sew(&patches.base, patches.faces(options.packing), patches.broken(), address);
     let mut bodies = bodies::bodies(shells, &mut all_notes);
+
+    for body in &mut bodies {
+        body.shells_mut().for_each(|shell| shell.translate(source.centre));
+    }
 
     let mut continuity = Continuity::default();
     let (mut volume, mut area) = (0.0, 0.0);
@@ -359,11 +377,14 @@ fn finish(
     };
     for body in &bodies {
         for (number, shell) in body.shells().enumerate() {
-            continuity = continuity.join(measure::continuity(shell));
-            let (own_volume, own_area) = measure::volume_and_area(shell);
+            // What is written is measured, its rounding far from the origin included, but measured near the origin.
+            let mut near = shell.clone();
+            near.translate(-source.centre);
+            continuity = continuity.join(measure::continuity(&near));
+            let (own_volume, own_area) = measure::volume_and_area(&near);
             volume += if number == 0 { own_volume } else { -own_volume };
             area += own_area;
-            if let Some([low, high]) = measure::bounding_box(shell) {
+            if let Some([low, high]) = measure::bounding_box(&near) {
                 extent = Some(extent.map_or([low, high], |[a, b]| [a.min(low), b.max(high)]));
             }
             report.faces_written += shell.faces.len();
@@ -376,8 +397,9 @@ fn finish(
             Body::Sheet(_) => report.closed = false,
         }
     }
-    for body in &mut bodies {
-        body.shells_mut().for_each(|shell| shell.translate(source.centre));
+    if report.closed && volume.abs() <= NO_VOLUME * source.size.powi(3) {
+        let message = "the part encloses no volume: its cage is flat, or one point".to_owned();
+        all_notes.push(Note { code: "no_volume", message, place: None });
     }
     report.volume = report.closed.then_some(volume);
     report.area = area;

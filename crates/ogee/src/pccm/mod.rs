@@ -240,7 +240,8 @@ fn weld(base: &Level, arrays: &mut Arrays) {
 fn findings(base: &Level, fans: &[Fan]) -> (Vec<HalfedgeId>, Vec<Note>) {
     let mut broken = Vec::new();
     let mut notes = Vec::new();
-    for fan in fans {
+    let seen = |fan: &&Fan| fan.halfedges.iter().any(|&h| base.is_visible(base.topology().face(h)));
+    for fan in fans.iter().filter(seen) {
         let vertex = fan.vertex;
         let mut note =
             |code, message| notes.push(Note { code, message, place: Some(Place::Vertex(vertex.0)) });
@@ -289,7 +290,7 @@ fn is_singular(fan: &Fan) -> bool {
     let tangents = || fan.tangents.iter().map(|&q| q - fan.apex);
     let longest = tangents().map(Vec3::length).fold(0.0, f64::max);
     let normal = tangents().zip(tangents().skip(1)).fold(Vec3::ZERO, |sum, (a, b)| sum + a.cross(b));
-    normal.length() < SINGULAR * longest * longest
+    normal.length() <= SINGULAR * longest * longest
 }
 
 /// Sine of the angle between tangents below which they count as parallel.

@@ -42,13 +42,30 @@ pub(crate) fn unpacked(base: &Level) -> Vec<Chart> {
 pub(crate) fn pack(base: &Level, classes: &[[CornerClass; 4]]) -> Vec<Chart> {
     let mut traces = Traces::new(base);
     traces.fire_from_irregular(classes);
-    loop {
-        let (charts, first_bad) = traces.charts();
-        match first_bad {
-            None => return charts,
-            Some(region) => traces.cut(&region),
+    // Faces whose regions are still to be looked at, the first ones last.
+    let faces = base.topology().face_count() as u32;
+    let mut waiting: Vec<u32> = (0..faces).filter(|&f| base.is_visible(FaceId(f))).rev().collect();
+    let mut charted = vec![false; faces as usize];
+    let mut charts: Vec<(u32, Chart)> = Vec::new();
+    while let Some(start) = waiting.pop() {
+        if charted[start as usize] {
+            continue;
+        }
+        let region = traces.flood(start);
+        match traces.rectangle(&region) {
+            Some(chart) => {
+                region.cells.keys().for_each(|&quad| charted[quad as usize] = true);
+                charts.push((start, chart));
+            }
+            None => {
+                let faces: Vec<u32> = region.cells.into_keys().collect();
+                traces.cut(&faces);
+                waiting.extend(faces.into_iter().rev());
+            }
         }
     }
+    charts.sort_by_key(|&(first, _)| first);
+    charts.into_iter().map(|(_, chart)| chart).collect()
 }
 
 struct Traces<'a> {
@@ -158,27 +175,6 @@ impl<'a> Traces<'a> {
         let behind =
             behind.and_then(|twin| topology.twin(topology.next(twin))).map(|across| topology.next(across));
         self.run(std::iter::once(h).chain(behind).collect());
-    }
-
-    /// The regions between separators as charts, and the faces of the first that is no rectangle.
-    fn charts(&self) -> (Vec<Chart>, Option<Vec<u32>>) {
-        let faces = self.base.topology().face_count();
-        let mut taken = vec![false; faces];
-        let mut charts = Vec::new();
-        for start in 0..faces as u32 {
-            if taken[start as usize] || !self.base.is_visible(FaceId(start)) {
-                continue;
-            }
-            let region = self.flood(start);
-            for &quad in region.cells.keys() {
-                taken[quad as usize] = true;
-            }
-            match self.rectangle(&region) {
-                Some(chart) => charts.push(chart),
-                None => return (charts, Some(region.cells.into_keys().collect())),
-            }
-        }
-        (charts, None)
     }
 
     /// Lays the faces connected with `start` out on the integer grid.

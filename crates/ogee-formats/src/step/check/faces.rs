@@ -41,8 +41,11 @@ pub(super) fn check(
     let mut volumes = Vec::with_capacity(model.shells.len());
     for shell in &model.shells {
         let mut volume = Some(0.0);
+        // One point for the whole shell: a closed one has the same volume about any, but not the same rounding.
+        let first = shell.faces.first().and_then(|face| splines.surfaces.get(&face.surface));
+        let origin = first.map_or(Vec3::ZERO, |surface| surface.net[(0, 0)]);
         for face in &shell.faces {
-            let flux = check_face(face, splines, paths, tolerance, faults);
+            let flux = check_face(face, splines, paths, origin, tolerance, faults);
             volume = volume.zip(flux).map(|(volume, flux)| volume + flux);
         }
         volumes.push(volume.filter(|_| shell.closed && shell.complete));
@@ -55,11 +58,12 @@ pub(super) fn check(
     total
 }
 
-/// Checks a face; returns the flux through it if it is a whole polynomial surface.
+/// Checks a face; returns the flux through it, about `origin`, if it is a whole polynomial surface.
 fn check_face(
     face: &Face,
     splines: &Splines,
     paths: &[Option<Path<'_>>],
+    origin: Vec3,
     tolerance: f64,
     faults: &mut Faults,
 ) -> Option<f64> {
@@ -83,7 +87,7 @@ fn check_face(
     }
     match (splines.surfaces.get(&face.surface), face.bounds.len(), rounds.as_slice()) {
         (Some(surface), 1, [()]) => {
-            let flux = surface.flux();
+            let flux = surface.flux(origin);
             Some(if face.same_sense { flux } else { -flux })
         }
         _ => None,

@@ -161,8 +161,9 @@ impl Surface {
         [along_u(v0), along_v(u1), along_u(v1), along_v(u0)]
     }
 
-    /// One third of the flux of the position through the surface, exact but for rounding.
-    pub(super) fn flux(&self) -> f64 {
+    /// One third of the flux through the surface of the position relative to `origin`, exact but for rounding, which
+    /// grows with the distance from there.
+    pub(super) fn flux(&self, origin: Vec3) -> f64 {
         let at_u = gauss(&self.u, 3 * self.u.degree);
         let at_v = gauss(&self.v, 3 * self.v.degree);
         let mut flux = 0.0;
@@ -171,7 +172,7 @@ impl Surface {
             for &(v, weight_v) in &at_v {
                 let [point, dv] = self.v.eval(|j| points[j], v);
                 let [du, _] = self.v.eval(|j| across[j], v);
-                flux += weight_u * weight_v * point.dot(du.cross(dv));
+                flux += weight_u * weight_v * (point - origin).dot(du.cross(dv));
             }
         }
         flux / 3.0
