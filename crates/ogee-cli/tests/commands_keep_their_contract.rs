@@ -324,3 +324,22 @@ fn colours_are_for_those_who_ask() {
     assert!(!folder.ogee("wibble --color never").stderr.contains('\x1b'));
     assert!(folder.ogee("--color=always wibble").stderr.contains('\x1b'));
 }
+
+#[test]
+fn a_part_too_small_for_kernels_is_told() {
+    let folder = Folder::new();
+    folder.write("cube.obj", CUBE);
+    let notes = |file: &str, unit: &str| {
+        let report =
+            folder.ogee(&format!("convert --json {file} -o part.step --unit {unit}")).expect(0).json();
+        report["notes"].as_array().unwrap().iter().map(|note| note["code"].to_string()).collect::<Vec<_>>()
+    };
+    assert!(!notes("cube.obj", "mm").contains(&"\"tiny\"".to_owned()));
+    let points = (0..8).map(|i| {
+        let at = |bit: u32| if i >> bit & 1 == 1 { "1e-9" } else { "-1e-9" };
+        format!("v {} {} {}\n", at(0), at(1), at(2))
+    });
+    let faces = CUBE.lines().filter(|line| line.starts_with('f')).map(|line| format!("{line}\n"));
+    folder.write("tiny.obj", points.chain(faces).collect::<String>());
+    assert!(notes("tiny.obj", "mm").contains(&"\"tiny\"".to_owned()));
+}

@@ -85,6 +85,9 @@ fn length(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Diagonal in millimetres below which the shape drowns in the tolerance of kernels.
+const SMALLEST_PART: f64 = 1e-3;
+
 /// The report for programs.
 #[derive(Serialize)]
 struct Report<'a> {
@@ -146,6 +149,14 @@ impl Convert {
 
         let mut notes = cage.warnings();
         notes.extend(part.report.notes.iter().map(Finding::of_note));
+        let [low, high] = part.report.bounding_box;
+        let across = low.distance(high) * self.unit.in_millimetres();
+        if across < SMALLEST_PART {
+            let message = format!(
+                "the part is {across:.1e} mm across, and CAD kernels join points 1e-6 mm apart: is the unit right?"
+            );
+            notes.push(Finding::in_file("tiny", message, &cage.name));
+        }
         let report = self.report(&part, seconds, file_bytes, &notes);
         let title = format!("{} -> {}", cage.name, destination.name());
         console.table(&title, &table(&report, console.is_verbose()), &notes);
