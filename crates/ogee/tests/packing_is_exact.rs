@@ -164,6 +164,11 @@ fn packed_surfaces_keep_what_semi_sharp_creases_leave() {
         let corner = Corner { vertex: top(2, 3), sharpness: Sharpness::Finite(sharpness) };
         mesh.creases = creases;
         mesh.corners = vec![corner];
+        // On a flat top with even spacing a crease would change nothing.
+        for (k, p) in mesh.points.iter_mut().enumerate() {
+            let shift = |by: usize| ((k * by % 11) as f64 - 5.0) / 40.0;
+            *p += Vec3::new(shift(3), shift(5), shift(7));
+        }
         agrees_with_single_quads(&format!("semi-sharp {sharpness}"), &mesh, Method::Pccm, None, 1e-13);
     }
 }
