@@ -165,6 +165,8 @@ fn holes_and_boundaries_left_out_are_no_part_of_the_surface() {
     check("boundary none", &grid, &part);
     assert_eq!((part.report.patches, part.report.faces_written, part.report.shells), (9, 1, 1));
     assert!(!part.report.closed && part.report.volume.is_none());
+    // Nothing is said of vertices that are no part of the surface.
+    assert_eq!(part.report.notes, []);
     // One bicubic piece after another: exactly the middle of the plane.
     assert!((part.report.area - 9.0).abs() < 1e-12);
 

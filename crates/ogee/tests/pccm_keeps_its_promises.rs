@@ -355,3 +355,14 @@ fn deviation_falls_with_the_quadratic_eigenvalue() {
         assert!((measured - order).abs() < 0.25, "valence {n}: {measured}");
     }
 }
+
+#[test]
+fn a_slit_is_left_as_inserted() {
+    // Two sharp edges a thousandth of a radian apart: a fan of tangents between them would grow beyond all measure.
+    let mut mesh = crease(shapes::disk(5, 2), &[[0, 1], [0, 7]]);
+    mesh.points[7] = Vec3::new(2.0 * 0.001f64.cos(), 2.0 * 0.001f64.sin(), 0.0);
+    mesh.corners = vec![Corner { vertex: 0, sharpness: Sharpness::Infinite }];
+    let patches = to_patches(&Level::new(&mesh).unwrap(), &mesh.points, &pccm::Options::default()).unwrap();
+    assert!(patches.notes.iter().any(|note| note.code == "corner_fallback"), "{:?}", patches.notes);
+    assert!(patches.nets.iter().flat_map(|net| net.cells()).all(|p| p.length() < 2.0 * mesh.size()));
+}
