@@ -564,12 +564,12 @@ fn a_part_far_from_the_origin_is_not_inside_out() {
     let near =
         ogee::convert::to_part(&cage, &ogee::convert::Options::default()).unwrap().report.volume.unwrap();
     for point in &mut cage.points {
-        *point += ogee::Vec3::new(1e8, 1e8, 1e8);
+        *point += Vec3::new(1e8, 1e8, 1e8);
     }
     let part = ogee::convert::to_part(&cage, &ogee::convert::Options::default()).unwrap();
     let mut text = Vec::new();
-    ogee_formats::step::write(&part, &ogee_formats::step::Options::default(), &mut text).unwrap();
-    let report = ogee_formats::step::check(&text);
+    step::write(&part, &Options::default(), &mut text).unwrap();
+    let report = check(&text);
     assert!(report.is_clean(), "{:?}", report.faults);
     // Coordinates of 1e8 are good to 1e-8.
     assert!((report.volume.unwrap() / near - 1.0).abs() < 1e-6);
