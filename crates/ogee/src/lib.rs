@@ -93,13 +93,16 @@ mod refine;
 mod rules;
 mod stencil;
 
-pub use limit::{LimitVertex, limit_vertices};
-pub use math::{Grid, Interpolate, Vec3};
+pub use limit::{
+    Derivatives, Flags, LimitJet, LimitSurface, LimitVertex, Samples, SurfacePoint, limit_vertices,
+};
+pub use math::{Curvature, Grid, Interpolate, SurfaceJet, Vec3};
 pub use mesh::{
     Boundary, ControlMesh, Corner, Crease, Creasing, Defect, EdgeId, FaceId, FaceList, FaceVarying,
     FaceVaryingRule, HalfedgeId, Note, Place, Scheme, Sharpness, Statistics, Topology, TopologyError,
     Valence, VertexId, shapes,
 };
+pub use patch::{Location, LocationError, ParametricFace, PatchTable};
 pub use refine::{FineMesh, Refinement, Step, TooDeep};
 pub use rules::{EdgeRule, Level, Sector, VertexMask, VertexRule};
 pub use stencil::{Row, StencilTable};

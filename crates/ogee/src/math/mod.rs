@@ -5,9 +5,11 @@ pub(crate) mod par;
 pub(crate) mod circulant;
 mod grid;
 mod interpolate;
+mod jet;
 pub(crate) mod sparse;
 mod vec3;
 
 pub use grid::Grid;
 pub use interpolate::Interpolate;
+pub use jet::{Curvature, SurfaceJet};
 pub use vec3::Vec3;

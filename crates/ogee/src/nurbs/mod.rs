@@ -12,4 +12,6 @@ pub use curve::NurbsCurve;
 pub use knots::KnotVector;
 pub use quadrature::gauss;
 pub use shell::{EdgeUse, FaceAddress, Shell, ShellEdge, ShellFace, Side};
-pub use surface::{NurbsSurface, SurfaceJet};
+pub use surface::NurbsSurface;
+
+pub use crate::math::SurfaceJet;
