@@ -16,7 +16,8 @@ impl PatchTable {
         let t = level.topology();
         let faces = (0..t.face_count() as u32).map(FaceId).flat_map(|face| {
             let n = t.face_size(face);
-            (0..if n == 4 { 1 } else { n }).map(move |k| ParametricFace { face, corner: (n != 4).then_some(k) })
+            (0..if n == 4 { 1 } else { n })
+                .map(move |k| ParametricFace { face, corner: (n != 4).then_some(k) })
         });
         PatchTable { faces: faces.collect() }
     }
@@ -51,7 +52,13 @@ impl PatchTable {
     ///
     /// # Errors
     /// If it names no point of the surface.
-    pub fn locate(&self, face: FaceId, corner: Option<u32>, u: f64, v: f64) -> Result<Location, LocationError> {
+    pub fn locate(
+        &self,
+        face: FaceId,
+        corner: Option<u32>,
+        u: f64,
+        v: f64,
+    ) -> Result<Location, LocationError> {
         let wanted = ParametricFace { face, corner };
         let root = self
             .faces
