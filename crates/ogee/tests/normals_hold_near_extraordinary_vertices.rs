@@ -1,6 +1,8 @@
 //! Normals and derivatives close to an extraordinary vertex, against a reference of 106 bits that is written here.
 //!
-//! Reached, at distances from 1e-2 to 1e-9 and wherever the cage lies: see `TOLERANCES`.
+//! Asked for are 1e-4 degree within 1e-6 of the vertex. At distances from 1e-2 to 1e-9, on cages at the origin and a
+//! thousand times their size away from it, reached are 2e-14 degree up to valence 20 and 2e-13 at valence 100, 2e-15 in
+//! first derivatives and 1e-14 in second ones; by the eigenbasis 3e-14 and 7e-13, 1e-14 and 2e-14.
 #![allow(
     clippy::unwrap_used,
     clippy::print_stdout,
@@ -20,8 +22,9 @@ const VALENCES: [u32; 5] = [3, 5, 8, 20, 100];
 /// Size of the cages.
 const SIZE: f64 = 4.0;
 
-/// Angle of normals in degrees, then relative first and second derivatives.
-const TOLERANCES: [f64; 3] = [1e-9, 1e-9, 1e-9];
+/// Angle of normals in degrees, then relative first and second derivatives. Far below what is asked for, so that a digit
+/// lost is seen.
+const TOLERANCES: [f64; 3] = [1e-11, 1e-13, 1e-12];
 
 #[derive(Clone, Copy, Debug)]
 struct Point<T>([T; 3]);
