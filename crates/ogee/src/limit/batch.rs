@@ -1,6 +1,6 @@
 //! Many points: samples sorted by piece, four at a time.
 
-use super::bicubic::{self, Jet, Lanes, Net};
+use super::bicubic::{self, Jet, Lanes, Net, lanes};
 use super::walk::{MAX_STEPS, Walk, narrow, subtract, wide};
 use super::{Derivatives, Flags, Samples};
 use crate::math::{Vec3, par, simd};
@@ -218,17 +218,14 @@ impl<'a> Worker<'a> {
     }
 
     fn leaf(&self, sources: &[u32; 16], depth: i32) -> Group {
-        let points = sources.map(|source| wide(self.batch.points[source as usize]));
         // Relative to a point of its own, so that parts far from the origin lose nothing.
-        let base = points[5];
-        let scale = f64::from(1u32 << depth);
-        Group {
-            net: points.map(|point| subtract(point, base)),
-            base,
-            corner: 0,
-            scales: [1.0, scale, scale * scale],
-            flags: Flags::NONE,
+        let base = wide(self.batch.points[sources[5] as usize]);
+        let mut net = [[0.0; 4]; 16];
+        for (point, &source) in net.iter_mut().zip(sources) {
+            *point = subtract(wide(self.batch.points[source as usize]), base);
         }
+        let scale = f64::from(1u32 << depth);
+        Group { net, base, corner: 0, scales: [1.0, scale, scale * scale], flags: Flags::NONE }
     }
 
     fn tile(&mut self, tail: u32, step: i32, beyond: i32, tile: usize, depth: i32) -> Group {
@@ -252,9 +249,9 @@ impl<'a> Worker<'a> {
     #[inline]
     fn evaluate(&self, group: &Group, items: &[Item], out: &mut Out<'_>) {
         match self.batch.what {
-            Derivatives::None => simd::dispatch(Evaluate::<0> { group, items, out }),
-            Derivatives::First => simd::dispatch(Evaluate::<1> { group, items, out }),
-            Derivatives::Second => simd::dispatch(Evaluate::<2> { group, items, out }),
+            Derivatives::None => evaluate::<0>(group, items, out),
+            Derivatives::First => evaluate::<1>(group, items, out),
+            Derivatives::Second => evaluate::<2>(group, items, out),
         }
     }
 
@@ -387,6 +384,38 @@ fn place(x: f64, y: f64) -> (u64, u64, f64, f64) {
     ((step + doublings) as u64, tile, inside(x), inside(y))
 }
 
+/// All samples of one patch.
+#[inline]
+fn evaluate<const ORDER: usize>(group: &Group, items: &[Item], out: &mut Out<'_>) {
+    let &[item] = items else {
+        return simd::dispatch(Evaluate::<ORDER> { group, items, out });
+    };
+    let mut jet = [[0.0; 4]; 6];
+    simd::dispatch(One::<ORDER> { net: &group.net, item, jet: &mut jet });
+    let mut parts = [[[0.0]; 3]; 6];
+    for (part, wide) in parts.iter_mut().zip(&jet) {
+        *part = [[wide[0]], [wide[1]], [wide[2]]];
+    }
+    write::<ORDER, 1>(group, items, parts, out);
+}
+
+/// One sample, for [`simd::dispatch`]. All four lanes go to memory: a compiler that knows the fourth to be idle packs the
+/// other three in ways that cost more.
+struct One<'a, const ORDER: usize> {
+    net: &'a Net,
+    item: Item,
+    jet: &'a mut Jet<Wide>,
+}
+
+impl<const ORDER: usize> simd::Kernel for One<'_, ORDER> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        *self.jet = bicubic::one::<ORDER>(self.net, self.item.x, self.item.y);
+    }
+}
+
 /// All samples of one patch, for [`simd::dispatch`].
 struct Evaluate<'a, 'o, const ORDER: usize> {
     group: &'a Group,
@@ -401,15 +430,9 @@ impl<const ORDER: usize> simd::Kernel for Evaluate<'_, '_, ORDER> {
     fn run(self) {
         let Evaluate { group, items, out } = self;
         for items in items.chunks(LANES) {
-            if let &[item] = items {
-                let jet = bicubic::one::<ORDER>(&group.net, item.x, item.y);
-                let jet = jet.map(|part| [[part[0]], [part[1]], [part[2]]]);
-                write::<ORDER, 1>(group, items, jet, out);
-                continue;
-            }
             let at = |l: usize| items[l.min(items.len() - 1)];
-            let x: Lanes<LANES> = std::array::from_fn(|l| at(l).x);
-            let y: Lanes<LANES> = std::array::from_fn(|l| at(l).y);
+            let x: Lanes<LANES> = lanes(|l| at(l).x);
+            let y: Lanes<LANES> = lanes(|l| at(l).y);
             let jet = bicubic::many::<ORDER, LANES>(&group.net, x, y);
             write::<ORDER, LANES>(group, items, jet, out);
         }
@@ -482,19 +505,21 @@ struct Normals<const L: usize> {
 
 #[inline(always)]
 fn normals<const L: usize>(a: &[Lanes<L>; 3], b: &[Lanes<L>; 3]) -> Normals<L> {
-    let product =
-        |i: usize, j: usize| -> Lanes<L> { std::array::from_fn(|l| a[i][l] * b[j][l] - a[j][l] * b[i][l]) };
+    let product = |i: usize, j: usize| -> Lanes<L> { lanes(|l| a[i][l] * b[j][l] - a[j][l] * b[i][l]) };
     let cross = [product(1, 2), product(2, 0), product(0, 1)];
     let square = |v: &[Lanes<L>; 3]| -> Lanes<L> {
-        std::array::from_fn(|l| v[0][l] * v[0][l] + v[1][l] * v[1][l] + v[2][l] * v[2][l])
+        lanes(|l| v[0][l] * v[0][l] + v[1][l] * v[1][l] + v[2][l] * v[2][l])
     };
     let (length, first, second) = (square(&cross), square(a), square(b));
     // Squares of products of derivatives: within these no step has over- or underflown.
     const RANGE: std::ops::Range<f64> = 1e-200..1e200;
-    let sure = std::array::from_fn(|l| {
-        length[l] > PARALLEL * PARALLEL * first[l] * second[l] && RANGE.contains(&length[l])
-    });
-    let vectors = std::array::from_fn(|c| std::array::from_fn(|l| cross[c][l] / length[l].sqrt()));
+    let mut sure = [false; L];
+    for (l, sure) in sure.iter_mut().enumerate() {
+        *sure = length[l] > PARALLEL * PARALLEL * first[l] * second[l] && RANGE.contains(&length[l]);
+    }
+    let root: Lanes<L> = lanes(|l| 1.0 / length[l].sqrt());
+    let scaled = |c: usize| -> Lanes<L> { lanes(|l| cross[c][l] * root[l]) };
+    let vectors = [scaled(0), scaled(1), scaled(2)];
     Normals { vectors, sure }
 }
 
