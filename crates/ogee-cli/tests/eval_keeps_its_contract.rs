@@ -436,3 +436,57 @@ fn memory_does_not_grow_with_the_number_of_points() {
     let many = peak("--at many.csv --derivatives 0", 2_000_000);
     assert!(many < 1.25 * few, "{few} bytes, then {many}");
 }
+
+#[test]
+fn an_address_off_the_surface_is_refused_with_its_line() {
+    let cases = [
+        ("2,0,0.5,0.5", "corner_on_quad", "face 2 is a quad, which takes no corner"),
+        ("0,,0.5,0.5", "corner_wanted", "face 0 has 3 corners, and one of them has to be named"),
+        ("0,3,0.5,0.5", "missing_corner", "face 0 has no corner 3, only 3"),
+        ("5,,0.5,0.5", "missing_face", "there is no face 5, only 5"),
+        ("2,,1.5,0.2", "outside_square", "the parameters (1.5, 0.2) are not in [0, 1]"),
+        ("2,,0.5,-0.0001", "outside_square", "the parameters (0.5, -0.0001) are not in [0, 1]"),
+        (
+            "2,,1.0000000000000002,0",
+            "outside_square",
+            "the parameters (1.0000000000000002, 0) are not in [0, 1]",
+        ),
+    ];
+    let folder = with_prism();
+    let points = as_csv(&addresses());
+    let number = points.lines().count() + 1;
+    for (row, code, message) in cases {
+        folder.write("bad.csv", format!("{points}{row}\n"));
+        let names = folder.names();
+        let run = folder.ogee("eval prism.obj --at bad.csv -o out.csv --json").expect(3);
+        assert_eq!(run.stderr, format!("bad.csv:{number}: {message}\n"));
+        let error = &run.json()["error"];
+        assert_eq!((&error["code"], &error["message"]), (&json!(code), &json!(message)));
+        let face: u32 = row[..1].parse().unwrap();
+        let mut place = json!({"file": "bad.csv", "line": number});
+        if code != "missing_face" {
+            place["face"] = json!(face);
+        }
+        assert_eq!(error["where"], place, "{row}");
+        assert_eq!(folder.names(), names);
+    }
+}
+
+#[test]
+fn faces_that_are_hidden_have_no_samples() {
+    let folder = Folder::new();
+    folder.write(
+        "cage.json",
+        r#"{"vertices": [[0,0,0],[1,0,0],[1,1,0],[0,1,0],[2,0,0],[2,1,0]],
+        "faces": [[0,1,2,3],[1,4,5,2]], "holes": [0]}"#,
+    );
+    let report = folder.ogee("eval cage.json --uniform 2 -o out.jsonl --json").expect(0).json();
+    assert_eq!((&report["samples"], &report["parametric_faces"]), (&json!(9), &json!(1)));
+    assert!(lines(&folder, "out.jsonl").iter().all(|row| row["face"] == 1));
+    folder.write("points.csv", "face,u,v\n1,0,0\n0,0,0\n");
+    let run = folder.ogee("eval cage.json --at points.csv -o out.csv --json").expect(3);
+    assert_eq!(run.first_line(), "points.csv:3: face 0 is no part of the surface");
+    assert_eq!(run.json()["error"]["code"], "hidden_face");
+    let run = folder.ogee("eval cage.json --boundary none --uniform 2 -o out.csv --json").expect(3);
+    assert_eq!(run.json()["error"]["code"], "no_surface");
+}
