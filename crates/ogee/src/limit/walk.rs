@@ -99,12 +99,10 @@ impl Walk {
 
     /// The net of a tile of this step: 0 at `(1, 0)`, 1 at `(1, 1)`, 2 at `(0, 1)`.
     #[inline]
-    pub(super) fn tile(&self, basis: &ChainBasis, tile: usize) -> [Wide; 16] {
-        let mut net = [[0.0; 4]; 16];
+    pub(super) fn tile(&self, basis: &ChainBasis, tile: usize, net: &mut [Wide; 16]) {
         for (point, &number) in net.iter_mut().zip(&basis.tiles[tile]) {
             *point = self.fine[number as usize];
         }
-        net
     }
 
     /// Limit position of the corner, and two vectors that span the tangent plane where there are masks for them.
