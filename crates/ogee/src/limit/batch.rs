@@ -1,6 +1,7 @@
 //! Many points: samples sorted by piece, four at a time.
 
 use super::bicubic::{self, Jet, Lanes, Net, lanes};
+use super::place::{self, Patch, Tile, power_of_two};
 use super::walk::{MAX_STEPS, Walk, narrow, subtract, wide};
 use super::{Derivatives, Flags, Samples};
 use crate::math::{Vec3, par, simd};
@@ -237,8 +238,7 @@ impl<'a> Worker<'a> {
         let mut largest = 0;
         for &Item { x, y, index } in items.iter() {
             let (x, y) = to_corner(corner, x, y);
-            let (step, tile, x, y) = place(x, y);
-            let key = step << 2 | tile;
+            let (key, x, y) = place::in_chain(x, y);
             largest = largest.max(key as usize);
             ends[(key as usize).min(BUCKETS - 1) + 1] += 1;
             self.keyed.push(Keyed { key, item: Item { x, y, index } });
@@ -277,8 +277,8 @@ impl<'a> Worker<'a> {
         let table = self.batch.table;
         self.keyed.clear();
         for &Item { x, y, index } in items.iter() {
-            let (piece, u, v, depth) = table.descend(table.root_node(root), x, y);
-            self.keyed.push(key(table, piece, (u, v), depth, index));
+            let (key, x, y) = place::key(table, root, x, y);
+            self.keyed.push(Keyed { key, item: Item { x, y, index } });
         }
         self.keyed.sort_unstable_by_key(|keyed| (keyed.key, keyed.item.index));
         let keyed = std::mem::take(&mut self.keyed);
@@ -292,9 +292,9 @@ impl<'a> Worker<'a> {
     }
 
     /// Samples of one bicubic patch, or at one vertex.
-    fn piece(&mut self, patch: Patch, items: &[Item], out: &mut Out<'_>) {
+    fn piece(&mut self, patch: Patch<'_>, items: &[Item], out: &mut Out<'_>) {
         match patch {
-            Patch::Leaf { index, depth } => self.leaf(self.batch.table.leaf(index), depth),
+            Patch::Leaf { sources, depth } => self.leaf(sources, depth),
             Patch::Tile(tile) => self.tile(tile),
             Patch::Vertex { tail, number } => return self.vertex(tail, number, items, out),
         }
@@ -408,91 +408,6 @@ fn flags_at(basis: &ChainBasis) -> Flags {
     };
     let flags = if one_sided { flags.with(Flags::NORMAL_ONE_SIDED) } else { flags };
     if unbounded { flags.with(Flags::UNBOUNDED_CURVATURE) } else { flags }
-}
-
-/// The patch that a key stands for.
-enum Patch {
-    Leaf { index: u32, depth: i32 },
-    Tile(Tile),
-    Vertex { tail: Tail, number: u32 },
-}
-
-/// A tile of a tail: its step, how many more steps the point lies below that, and which of the three.
-struct Tile {
-    tail: Tail,
-    number: u32,
-    step: i32,
-    beyond: i32,
-    tile: usize,
-    depth: i32,
-}
-
-/// Bits of a key: 1 for a tail, 30 for which piece, 5 for how often it was halved, 12 for the step counted without end,
-/// 2 for the tile; a step of zero is the vertex.
-fn key(table: &PatchTable, piece: Piece, (u, v): (f64, f64), depth: i32, index: u32) -> Keyed {
-    let head = |tail: u64, piece: u32| (tail << 30 | u64::from(piece)) << 5 | depth as u64;
-    match piece {
-        Piece::Leaf(leaf) => Keyed { key: head(0, leaf) << 14, item: Item { x: u, y: v, index } },
-        Piece::Tail(tail) => {
-            let (x, y) = to_corner(table.tail(tail).corner, u, v);
-            let (step, tile, x, y) = place(x, y);
-            Keyed { key: head(1, tail) << 14 | step << 2 | tile, item: Item { x, y, index } }
-        }
-        Piece::Split(_) => unreachable!("one descends to a leaf or a tail"),
-    }
-}
-
-impl Patch {
-    fn of(table: &PatchTable, key: u64) -> Patch {
-        let head = key >> 14;
-        let (depth, piece) = ((head & 0x1f) as i32, (head >> 5 & 0x3fff_ffff) as u32);
-        if head >> 35 == 0 {
-            return Patch::Leaf { index: piece, depth };
-        }
-        Patch::of_step(table.tail(piece), piece, key & 0x3fff, depth)
-    }
-
-    /// From step and tile alone.
-    fn of_step(tail: Tail, number: u32, key: u64, depth: i32) -> Patch {
-        let (step, tile) = ((key >> 2) as i32, (key & 3) as usize);
-        if step == 0 {
-            return Patch::Vertex { tail, number };
-        }
-        let beyond = (step - MAX_STEPS).max(0);
-        Patch::Tile(Tile { tail, number, step: step - beyond, beyond, tile, depth })
-    }
-}
-
-/// Step and tile of a point in the frame of an irregular corner, and the parameters in the tile. Step zero is the corner
-/// itself. No logarithm: the exponent of the larger parameter says how often it can be doubled.
-#[inline]
-fn place(x: f64, y: f64) -> (u64, u64, f64, f64) {
-    let (mut x, mut y) = (x, y);
-    let mut step = 0;
-    while x.max(y) < f64::MIN_POSITIVE {
-        if x.max(y) <= 0.0 {
-            return (0, 0, 0.0, 0.0);
-        }
-        // No exponent to read: doubled by hand.
-        (x, y, step) = (2.0 * x, 2.0 * y, step + 1);
-    }
-    let exponent = (x.max(y).to_bits() >> 52) as i32;
-    let doublings = (1023 - exponent).max(1);
-    let scale = power_of_two(doublings);
-    (x, y) = (x * scale, y * scale);
-    let tile = match (x >= 1.0, y >= 1.0) {
-        (true, false) => 0,
-        (true, true) => 1,
-        _ => 2,
-    };
-    let inside = |t: f64| if t >= 1.0 { t - 1.0 } else { t };
-    ((step + doublings) as u64, tile, inside(x), inside(y))
-}
-
-/// `2^e`, for exponents of numbers.
-#[inline]
-fn power_of_two(e: i32) -> f64 {
-    f64::from_bits(((1023 + e) as u64) << 52)
 }
 
 /// All samples of one patch.

@@ -2,7 +2,9 @@
 
 mod batch;
 mod bicubic;
+mod place;
 mod point;
+mod stencils;
 mod surface;
 mod vertices;
 mod walk;

@@ -4,7 +4,8 @@ use std::borrow::Cow;
 
 use super::batch::{Batch, Out, Worker};
 use super::{Derivatives, Flags, LimitJet, Samples, SurfacePoint};
-use crate::math::{SurfaceJet, Vec3};
+use crate::math::{Interpolate, SurfaceJet, Vec3};
+use crate::mesh::VertexId;
 use crate::patch::{Location, PatchTable};
 
 /// The limit surface of a cage: position, derivatives and normal at any point, exact everywhere.
@@ -59,6 +60,27 @@ impl<'a> LimitSurface<'a> {
     pub fn jet(&self, at: Location) -> LimitJet {
         let ([position, du, dv, duu, duv, dvv], normal, flags) = self.lone(at, Derivatives::Second);
         LimitJet { jet: SurfaceJet { position, du, dv, duu, duv, dvv }, normal, flags }
+    }
+
+    /// Moves one vertex of the cage. Only what it has a part in is computed again, the same way as from the start; the
+    /// parametric faces that change are those of [`PatchTable::seen_by`].
+    ///
+    /// The first call copies the points, and builds an index in the table.
+    ///
+    /// # Panics
+    /// If the cage has no such vertex.
+    pub fn move_point(&mut self, vertex: VertexId, to: Vec3) {
+        let count = self.table.cage_count();
+        assert!(vertex.index() < count, "the cage has {count} vertices");
+        let points = self.points.to_mut();
+        points[vertex.index()] = to;
+        for &number in self.table.local_points_of(vertex) {
+            let mut point = Vec3::ZERO;
+            for (source, weight) in self.table.local().row(number as usize) {
+                point.add_scaled(weight, &points[source as usize]);
+            }
+            points[count + number as usize] = point;
+        }
     }
 
     fn lone(&self, at: Location, what: Derivatives) -> ([Vec3; 6], Vec3, Flags) {

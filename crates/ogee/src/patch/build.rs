@@ -5,6 +5,7 @@
 //! cage.
 
 use std::collections::HashMap;
+use std::sync::OnceLock;
 
 use super::chain::{ChainBasis, Kind};
 use super::surroundings::{CornerKind, Mirrored, Plain, Surroundings, plain_corners, plain_ring};
@@ -38,6 +39,7 @@ pub(super) fn table(level: &Level) -> PatchTable {
         rings: Vec::new(),
         kinds: Vec::new(),
         local: StencilTable::empty(),
+        users: OnceLock::new(),
     };
     let mut builder = Builder { table, kinds: HashMap::new() };
     let mut targets = match level.topology().as_quads() {

@@ -251,7 +251,7 @@ impl ChainBasis {
     }
 
     /// Weights over the ring of a fine point.
-    pub(crate) fn step_of(&self, row: usize) -> Vec<(usize, f64)> {
+    fn step_of(&self, row: usize) -> Vec<(usize, f64)> {
         let count = self.ring_count();
         let mut out: Vec<(usize, f64)> = Vec::new();
         for (source, weight) in self.fine.terms(row) {
@@ -263,6 +263,11 @@ impl ChainBasis {
             }
         }
         out
+    }
+
+    /// Weights over the ring of every fine point.
+    pub(crate) fn all_rows(&self) -> Vec<Vec<(usize, f64)>> {
+        (0..self.fine.len()).map(|row| self.step_of(row)).collect()
     }
 
     /// The left eigenvector of the eigenvalue one, over the inner points.

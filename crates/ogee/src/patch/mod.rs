@@ -9,6 +9,7 @@ mod smooth;
 mod surroundings;
 mod table;
 mod tree;
+mod users;
 
 pub(crate) use chain::{ChainBasis, Kind, Wide};
 pub use location::{Location, LocationError, ParametricFace};

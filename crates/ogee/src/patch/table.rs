@@ -1,7 +1,10 @@
 //! `PatchTable`: what every parametric face is made of.
 
+use std::sync::OnceLock;
+
 use super::chain::ChainBasis;
 use super::tree::{Node, Piece, Tail};
+use super::users::Users;
 use super::{Location, LocationError, ParametricFace, build};
 use crate::math::{Vec3, simd};
 use crate::mesh::FaceId;
@@ -41,6 +44,8 @@ pub struct PatchTable {
     pub(super) kinds: Vec<ChainBasis>,
     /// Points that splits bring and points mirrored at sharp edges, over the cage; numbered after the cage's.
     pub(super) local: StencilTable,
+    /// What depends on a vertex; made when it is first asked for.
+    pub(super) users: OnceLock<Users>,
 }
 
 /// Numbers of the points of a net, `i + 4 j`; one line of the processor's cache.

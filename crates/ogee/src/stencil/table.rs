@@ -5,7 +5,7 @@ use crate::math::{Interpolate, par};
 
 /// A table of affine combinations: row `i` says which sources, with which weights, make output `i`.
 ///
-/// Weights of a row sum to one.
+/// Weights of a row sum to one, those of a derivative to zero.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StencilTable {
     starts: Vec<u32>,
