@@ -206,7 +206,7 @@ impl ChainBasis {
         let mut face_points = Sums::default();
         for &face in &terms.faces {
             let topology = model.level.topology();
-            let corners = topology.halfedges(face).map(|h| (topology.origin(h).0 as u32, 1.0 / 4.0));
+            let corners = topology.halfedges(face).map(|h| (topology.origin(h).0, 1.0 / 4.0));
             face_points.push(corners.collect());
         }
         let mut basis = ChainBasis {
@@ -402,10 +402,10 @@ impl Terms<'_> {
                 let side = topology.side(EdgeId(fine - vertices - faces));
                 rules::edge_terms(self.level, side, &mut self.row);
             }
-            let (on_vertices, on_faces) = self.row.terms();
+            let [on_vertices, on_faces] = self.row.terms();
             for &(vertex, weight) in on_vertices {
                 debug_assert!((vertex as usize) < self.count, "the ring decides its tiles");
-                out.push((vertex as u32, share * weight));
+                out.push((vertex, share * weight));
             }
             for &(face, weight) in on_faces {
                 let known = self.faces.iter().position(|&other| other.0 == face);

@@ -58,8 +58,8 @@ impl Row {
     }
 
     /// Weights on vertices and on face points as the masks named them.
-    pub(crate) fn terms(&self) -> (&[(u32, f64)], &[(u32, f64)]) {
-        (&self.vertices, &self.faces)
+    pub(crate) fn terms(&self) -> [&[(u32, f64)]; 2] {
+        [&self.vertices, &self.faces]
     }
 
     /// The weights on vertices, in the order of their numbers once face points are expanded.
