@@ -1,0 +1,93 @@
+//! Evaluation against `testdata/evaluation`: positions, derivatives, normals, curvatures, and limits at vertices.
+
+mod cages;
+mod golden;
+
+use cages::{at_corner, faces_at};
+use golden::{cage, documents, index, list, number, point};
+use ogee::{FaceId, Flags, Level, LimitSurface, PatchTable, Vec3, VertexId};
+use serde_json::Value;
+
+/// Of the size of the cage.
+const POSITION: f64 = 1e-12;
+/// Of the largest derivative of the same order; the second one where a corner is nearer than [`NEAR`].
+const DERIVATIVES: f64 = 1e-10;
+const DERIVATIVES_NEAR: f64 = 1e-6;
+const NEAR: f64 = 1e-5;
+const NORMAL: f64 = 1e-9;
+
+/// The largest difference of some vectors, of the longest of them.
+fn relative<const N: usize>(ours: [Vec3; N], theirs: [&Value; N]) -> f64 {
+    let theirs = theirs.map(point);
+    let longest = theirs.iter().map(|d| d.length()).fold(f64::MIN_POSITIVE, f64::max);
+    ours.iter().zip(theirs).map(|(a, b)| a.distance(b)).fold(0.0, f64::max) / longest
+}
+
+#[test]
+fn samples_match() {
+    let mut count = 0;
+    for (name, document) in documents("evaluation") {
+        let mesh = cage(&document["mesh"], &Value::Null);
+        let level = Level::new(&mesh).unwrap();
+        let table = PatchTable::new(&level);
+        let surface = LimitSurface::new(&table, &mesh.points);
+        // Positions, derivatives, derivatives near a corner, normals.
+        let mut worst = [0.0f64; 4];
+        for sample in list(&document["samples"]) {
+            let (u, v) = (number(&sample["u"]), number(&sample["v"]));
+            let corner = sample["subface"].as_u64().map(|corner| corner as u32);
+            let at = table.locate(FaceId(index(&sample["face"])), corner, u, v).unwrap();
+            let near = u.min(1.0 - u).max(v.min(1.0 - v)) < NEAR;
+            let got = surface.jet(at);
+            let place = format!("{name} face {} {corner:?} ({u}, {v})", sample["face"]);
+            let gap = got.jet.position.distance(point(&sample["S"])) / mesh.size();
+            assert!(gap <= POSITION, "{place}: position {gap:e}");
+            worst[0] = worst[0].max(gap);
+            let gap = relative([got.jet.du, got.jet.dv], [&sample["Su"], &sample["Sv"]]).max(relative(
+                [got.jet.duu, got.jet.duv, got.jet.dvv],
+                [&sample["Suu"], &sample["Suv"], &sample["Svv"]],
+            ));
+            let (which, tolerance) = if near { (2, DERIVATIVES_NEAR) } else { (1, DERIVATIVES) };
+            assert!(gap <= tolerance, "{place}: derivatives {gap:e}");
+            worst[which] = worst[which].max(gap);
+            let gap = got.normal.distance(point(&sample["n"]));
+            assert!(gap <= NORMAL, "{place}: normal {gap:e}");
+            worst[3] = worst[3].max(gap);
+            assert_eq!(got.flags, Flags::NONE, "{place}");
+            count += 1;
+        }
+        let [position, derivatives, near, normal] = worst;
+        println!(
+            "{name}: {position:.1e}, derivatives {derivatives:.1e}, near {near:.1e}, normals {normal:.1e}"
+        );
+    }
+    assert!(count > 250, "{count}");
+}
+
+#[test]
+fn limits_at_vertices_match() {
+    let mut count = 0;
+    for (name, document) in documents("evaluation") {
+        let mesh = cage(&document["mesh"], &Value::Null);
+        let level = Level::new(&mesh).unwrap();
+        let table = PatchTable::new(&level);
+        let surface = LimitSurface::new(&table, &mesh.points);
+        for limit in list(&document["limits"]) {
+            let v = VertexId(index(&limit["vertex"]));
+            let [t1, t2] = [point(&limit["t1"]), point(&limit["t2"])];
+            for (face, corner) in faces_at(&level, v) {
+                let got = surface.eval(at_corner(&level, &table, face, corner, 0.0, 0.0));
+                let gap = got.position.distance(point(&limit["limit"])) / mesh.size();
+                assert!(gap <= POSITION, "{name} {v} {face}: {gap:e}");
+                let gap = got.normal.distance(point(&limit["normal"]));
+                assert!(gap <= NORMAL, "{name} {v} {face}: normal {gap:e}");
+                assert!(got.flags.contains(Flags::AT_EXTRAORDINARY), "{name} {v}: {:?}", got.flags);
+                // Two vectors that span the same plane, the same way round.
+                let [ours, theirs] = [got.du.cross(got.dv), t1.cross(t2)].map(|n| n.normalized().unwrap());
+                assert!(ours.distance(theirs) <= NORMAL, "{name} {v} {face}: {ours:?} {theirs:?}");
+                count += 1;
+            }
+        }
+    }
+    assert!(count > 40, "{count}");
+}
