@@ -102,7 +102,7 @@ pub use mesh::{
     FaceVaryingRule, HalfedgeId, Note, Place, Scheme, Sharpness, Statistics, Topology, TopologyError,
     Valence, VertexId, shapes,
 };
-pub use patch::{Location, LocationError, ParametricFace, PatchTable};
+pub use patch::{Location, LocationError, ParametricFace, PatchStatistics, PatchTable};
 pub use refine::{FineMesh, Refinement, Step, TooDeep};
 pub use rules::{EdgeRule, Level, Sector, VertexMask, VertexRule};
 pub use stencil::{Row, StencilTable};

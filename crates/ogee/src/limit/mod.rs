@@ -1,9 +1,11 @@
 //! The limit surface: where refinement leads.
 
-pub(crate) mod masks;
+mod batch;
+mod bicubic;
 mod point;
 mod surface;
 mod vertices;
+mod walk;
 
 pub use point::{Derivatives, Flags, LimitJet, Samples, SurfacePoint};
 pub use surface::LimitSurface;

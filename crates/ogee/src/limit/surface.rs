@@ -1,20 +1,40 @@
 //! `LimitSurface`: the limit surface of a cage at any point.
 
-use super::{Derivatives, LimitJet, Samples, SurfacePoint};
-use crate::math::Vec3;
+use std::borrow::Cow;
+
+use super::batch::{Batch, Out, Worker};
+use super::{Derivatives, Flags, LimitJet, Samples, SurfacePoint};
+use crate::math::{SurfaceJet, Vec3};
 use crate::patch::{Location, PatchTable};
 
-/// stub
+/// The limit surface of a cage: position, derivatives and normal at any point, exact everywhere.
+///
+/// Derivatives are with respect to the parameters of the [`Location`]. Made from a table and the points of one pose;
+/// costs nothing where the table has no points of its own, else one pass over those.
 #[derive(Clone, Debug)]
 pub struct LimitSurface<'a> {
     table: &'a PatchTable,
-    points: Vec<Vec3>,
+    /// The cage's points, then those of the table.
+    points: Cow<'a, [Vec3]>,
 }
 
 impl<'a> LimitSurface<'a> {
-    /// stub
+    /// The surface of a cage in one pose.
+    ///
+    /// # Panics
+    /// If there are fewer points than the cage of the table has vertices.
     pub fn new(table: &'a PatchTable, cage: &'a [Vec3]) -> LimitSurface<'a> {
-        LimitSurface { table, points: cage.to_vec() }
+        let cage = &cage[..table.cage_count()];
+        let local = table.local();
+        let points = if local.is_empty() {
+            Cow::Borrowed(cage)
+        } else {
+            let mut points = Vec::with_capacity(cage.len() + local.len());
+            points.extend_from_slice(cage);
+            points.extend(local.apply(cage));
+            Cow::Owned(points)
+        };
+        LimitSurface { table, points }
     }
 
     /// The table it was made with.
@@ -22,29 +42,55 @@ impl<'a> LimitSurface<'a> {
         self.table
     }
 
-    /// Position, tangents and normal.
+    /// Position, tangents and normal. Costs some dozen nanoseconds, and some dozen more for every step into the chain
+    /// of an extraordinary vertex.
+    ///
+    /// # Panics
+    /// If the location is of another table.
     pub fn eval(&self, at: Location) -> SurfacePoint {
-        SurfacePoint { position: self.points[0] + Vec3::new(at.u, at.v, 0.0), ..SurfacePoint::default() }
+        let ([position, du, dv, ..], normal, flags) = self.lone(at, Derivatives::First);
+        SurfacePoint { position, du, dv, normal, flags }
     }
 
     /// Second derivatives as well.
+    ///
+    /// # Panics
+    /// If the location is of another table.
     pub fn jet(&self, at: Location) -> LimitJet {
-        let mut jet = LimitJet::default();
-        jet.jet.position = self.eval(at).position;
-        jet
+        let ([position, du, dv, duu, duv, dvv], normal, flags) = self.lone(at, Derivatives::Second);
+        LimitJet { jet: SurfaceJet { position, du, dv, duu, duv, dvv }, normal, flags }
     }
 
-    /// Many points at once.
+    fn lone(&self, at: Location, what: Derivatives) -> ([Vec3; 6], Vec3, Flags) {
+        let (mut jet, mut normal, mut flags) = ([Vec3::ZERO; 6], Vec3::ZERO, Flags::NONE);
+        let [position, du, dv, duu, duv, dvv] = jet.each_mut().map(std::slice::from_mut);
+        let (normal_out, flags_out) = (std::slice::from_mut(&mut normal), std::slice::from_mut(&mut flags));
+        let mut out = Out { position, du, dv, normal: normal_out, duu, duv, dvv, flags: flags_out };
+        Worker::new(self.batch(what)).lone(at, &mut out);
+        (jet, normal, flags)
+    }
+
+    fn batch(&self, what: Derivatives) -> Batch<'_> {
+        Batch { table: self.table, points: &self.points, what }
+    }
+
+    /// Many points at once, in the order asked, on all cores. Quickest where samples of the same face stand together,
+    /// some thousands at a time.
+    ///
+    /// # Panics
+    /// If a location is of another table.
     pub fn eval_batch(&self, at: &[Location], what: Derivatives) -> Samples {
         let mut samples = Samples::default();
         self.eval_into(at, what, &mut samples);
         samples
     }
 
-    /// Many points at once, into memory that is there already.
+    /// [`LimitSurface::eval_batch`] into memory that is there already: fresh memory costs more than the arithmetic.
+    ///
+    /// # Panics
+    /// If a location is of another table.
     pub fn eval_into(&self, at: &[Location], what: Derivatives, out: &mut Samples) {
-        let _ = what;
-        out.position = at.iter().map(|&at| self.eval(at).position).collect();
-        out.flags = vec![super::Flags::NONE; at.len()];
+        out.resize(at.len(), what);
+        self.batch(what).run(at, out.slices());
     }
 }

@@ -1,8 +1,8 @@
 //! Limit position and normal of every vertex of a level.
 
-use super::masks::{self, Frame};
 use crate::math::{Vec3, par};
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::patch::masks::{self, Frame};
 use crate::patch::{Neighbourhood, with_ring};
 use crate::rules::Level;
 

@@ -6,6 +6,7 @@ pub(crate) mod circulant;
 mod grid;
 mod interpolate;
 mod jet;
+pub(crate) mod simd;
 pub(crate) mod sparse;
 mod vec3;
 

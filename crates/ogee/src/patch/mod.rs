@@ -1,9 +1,16 @@
 //! Pieces of a level: taken out to be worked on alone, and what every face's surface is made of.
 
+mod build;
+mod chain;
 mod location;
+pub(crate) mod masks;
 mod neighbourhood;
+mod surroundings;
 mod table;
+mod tree;
 
+pub(crate) use chain::{ChainBasis, Kind, Wide};
 pub use location::{Location, LocationError, ParametricFace};
 pub(crate) use neighbourhood::{Neighbourhood, with_ring};
-pub use table::PatchTable;
+pub use table::{PatchStatistics, PatchTable};
+pub(crate) use tree::{Piece, Tail, to_corner};

@@ -10,6 +10,12 @@ use crate::stencil::Row;
 
 /// The child of a vertex.
 pub(crate) fn vertex_mask(level: &Level, v: VertexId, row: &mut Row) {
+    vertex_terms(level, v, row);
+    row.expand_face_points(|f, weight, row| face(level, f, weight, row));
+}
+
+/// The child of a vertex, face points left as they are.
+pub(crate) fn vertex_terms(level: &Level, v: VertexId, row: &mut Row) {
     match level.vertex_rule(v) {
         VertexRule::Of(mask) => one(level, v, mask, 1.0, row),
         VertexRule::Blend { parent, child, weight } => {
@@ -17,7 +23,6 @@ pub(crate) fn vertex_mask(level: &Level, v: VertexId, row: &mut Row) {
             one(level, v, child, 1.0 - weight, row);
         }
     }
-    row.expand_face_points(|f, weight, row| face(level, f, weight, row));
 }
 
 fn one(level: &Level, v: VertexId, mask: VertexMask, weight: f64, row: &mut Row) {
@@ -30,6 +35,12 @@ fn one(level: &Level, v: VertexId, mask: VertexMask, weight: f64, row: &mut Row)
 
 /// The child of an edge, by either of its halfedges.
 pub(crate) fn edge_mask(level: &Level, h: HalfedgeId, row: &mut Row) {
+    edge_terms(level, h, row);
+    row.expand_face_points(|f, weight, row| face(level, f, weight, row));
+}
+
+/// The child of an edge, face points left as they are.
+pub(crate) fn edge_terms(level: &Level, h: HalfedgeId, row: &mut Row) {
     let topology = level.topology();
     let ends = [topology.origin(h), topology.target(h)];
     let crease_share = match level.edge_rule(h) {
@@ -43,7 +54,6 @@ pub(crate) fn edge_mask(level: &Level, h: HalfedgeId, row: &mut Row) {
     if let (true, Some(twin)) = (crease_share != 1.0, topology.twin(h)) {
         catmull_clark::rule::smooth_edge(topology, h, twin, 1.0 - crease_share, row);
     }
-    row.expand_face_points(|f, weight, row| face(level, f, weight, row));
 }
 
 /// The child of a face.

@@ -57,6 +57,11 @@ impl Row {
         });
     }
 
+    /// Weights on vertices and on face points as the masks named them.
+    pub(crate) fn terms(&self) -> (&[(u32, f64)], &[(u32, f64)]) {
+        (&self.vertices, &self.faces)
+    }
+
     /// The weights on vertices, in the order of their numbers once face points are expanded.
     pub fn weights(&self) -> &[(u32, f64)] {
         debug_assert!(self.faces.is_empty(), "face points are to be expanded first");

@@ -59,6 +59,20 @@ impl StencilTable {
         self.starts.push(self.sources.len() as u32);
     }
 
+    /// A table without rows, to be filled by [`StencilTable::append`].
+    pub(crate) fn empty() -> StencilTable {
+        StencilTable { starts: vec![0], sources: Vec::new(), weights: Vec::new() }
+    }
+
+    /// Appends a row of sources and weights.
+    pub(crate) fn append(&mut self, row: impl IntoIterator<Item = (u32, f64)>) {
+        for (source, weight) in row {
+            self.sources.push(source);
+            self.weights.push(weight);
+        }
+        self.starts.push(u32::try_from(self.sources.len()).expect("fewer than 2^32 weights in a table"));
+    }
+
     /// Number of rows.
     pub fn len(&self) -> usize {
         self.starts.len().saturating_sub(1)

@@ -14,6 +14,12 @@ pub(crate) struct Frame {
     pub(crate) tangents: [Vec3; 2],
 }
 
+/// The largest eigenvalue below one of a ring whose edges are `angle` apart: by it the ring shrinks in every step.
+pub(crate) fn subdominant(angle: f64) -> f64 {
+    let c = angle.cos();
+    (5.0 + c + ((c + 9.0) * (c + 1.0)).sqrt()) / 16.0
+}
+
 /// Weight of the neighbours against the diagonals in a tangent mask.
 fn edge_weight(angle: f64) -> f64 {
     let c = angle.cos();
@@ -55,8 +61,7 @@ pub(crate) fn crease(vertex: Vec3, edges: &[Vec3], diagonals: &[Vec3]) -> Frame 
         return Frame { position, tangents: [along, first + last - 2.0 * vertex] };
     }
     let angle = PI / k as f64;
-    let c = angle.cos();
-    let lambda = (5.0 + c + ((c + 9.0) * (c + 1.0)).sqrt()) / 16.0;
+    let lambda = subdominant(angle);
     let weight = edge_weight(angle);
     let sines: Vec<f64> = (0..=k).map(|i| (i as f64 * angle).sin()).collect();
     let inner_sum: f64 = sines[1..k].iter().sum();

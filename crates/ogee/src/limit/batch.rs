@@ -1,0 +1,516 @@
+//! Many points: samples sorted by piece, four at a time.
+
+use super::bicubic::{self, Jet, Lanes, Net};
+use super::walk::{MAX_STEPS, Walk, narrow, subtract, wide};
+use super::{Derivatives, Flags, Samples};
+use crate::math::{Vec3, par, simd};
+use crate::patch::{ChainBasis, Kind, Location, PatchTable, Piece, Wide, to_corner};
+
+/// Samples that one task works through, and sorts where that helps.
+const CHUNK: usize = 8192;
+
+/// Samples side by side in the inner loop.
+const LANES: usize = 4;
+
+/// Tangents are parallel where the sine of their angle is below this: some dozen roundings.
+const PARALLEL: f64 = 1e-14;
+
+/// Where results go; what was not asked for is empty.
+pub(super) struct Out<'a> {
+    pub(super) position: &'a mut [Vec3],
+    pub(super) du: &'a mut [Vec3],
+    pub(super) dv: &'a mut [Vec3],
+    pub(super) normal: &'a mut [Vec3],
+    pub(super) duu: &'a mut [Vec3],
+    pub(super) duv: &'a mut [Vec3],
+    pub(super) dvv: &'a mut [Vec3],
+    pub(super) flags: &'a mut [Flags],
+}
+
+impl<'a> Out<'a> {
+    fn split_at(self, middle: usize) -> (Out<'a>, Out<'a>) {
+        fn cut<T>(slice: &mut [T], middle: usize) -> (&mut [T], &mut [T]) {
+            slice.split_at_mut(middle.min(slice.len()))
+        }
+        let (position, position_rest) = cut(self.position, middle);
+        let (du, du_rest) = cut(self.du, middle);
+        let (dv, dv_rest) = cut(self.dv, middle);
+        let (normal, normal_rest) = cut(self.normal, middle);
+        let (duu, duu_rest) = cut(self.duu, middle);
+        let (duv, duv_rest) = cut(self.duv, middle);
+        let (dvv, dvv_rest) = cut(self.dvv, middle);
+        let (flags, flags_rest) = cut(self.flags, middle);
+        let rest = Out {
+            position: position_rest,
+            du: du_rest,
+            dv: dv_rest,
+            normal: normal_rest,
+            duu: duu_rest,
+            duv: duv_rest,
+            dvv: dvv_rest,
+            flags: flags_rest,
+        };
+        (Out { position, du, dv, normal, duu, duv, dvv, flags }, rest)
+    }
+}
+
+impl Samples {
+    /// Room for so many, in the arrays that are wanted.
+    pub(super) fn resize(&mut self, count: usize, what: Derivatives) {
+        let wanted = |order: Derivatives| if what >= order { count } else { 0 };
+        let (first, second) = (wanted(Derivatives::First), wanted(Derivatives::Second));
+        self.position.resize(count, Vec3::ZERO);
+        self.flags.resize(count, Flags::NONE);
+        for array in [&mut self.du, &mut self.dv, &mut self.normal] {
+            array.resize(first, Vec3::ZERO);
+        }
+        for array in [&mut self.duu, &mut self.duv, &mut self.dvv] {
+            array.resize(second, Vec3::ZERO);
+        }
+    }
+
+    pub(super) fn slices(&mut self) -> Out<'_> {
+        Out {
+            position: &mut self.position,
+            du: &mut self.du,
+            dv: &mut self.dv,
+            normal: &mut self.normal,
+            duu: &mut self.duu,
+            duv: &mut self.duv,
+            dvv: &mut self.dvv,
+            flags: &mut self.flags,
+        }
+    }
+}
+
+/// A table, the points of a pose, and how much is wanted.
+#[derive(Clone, Copy)]
+pub(super) struct Batch<'a> {
+    pub(super) table: &'a PatchTable,
+    pub(super) points: &'a [Vec3],
+    pub(super) what: Derivatives,
+}
+
+impl Batch<'_> {
+    /// All samples, on all cores. What a sample gives does not depend on those beside it.
+    pub(super) fn run(self, at: &[Location], mut out: Out<'_>) {
+        if at.len() > CHUNK {
+            // Whole chunks to the left.
+            let middle = at.len().div_ceil(CHUNK).div_ceil(2) * CHUNK;
+            let (left, right) = out.split_at(middle);
+            par::join(|| self.run(&at[..middle], left), || self.run(&at[middle..], right));
+            return;
+        }
+        let mut worker = Worker::new(self);
+        match self.order(at) {
+            Some(order) => worker.all(at, order.into_iter(), &mut out),
+            None => worker.all(at, 0..at.len() as u32, &mut out),
+        }
+    }
+
+    /// The samples sorted by parametric face, if they are not, and if several of them share one.
+    fn order(&self, at: &[Location]) -> Option<Vec<u32>> {
+        let changes = at.windows(2).filter(|pair| pair[0].root != pair[1].root).count();
+        if 2 * changes < at.len() || self.table.len() > at.len() {
+            return None;
+        }
+        let mut order: Vec<u32> = (0..at.len() as u32).collect();
+        order.sort_unstable_by_key(|&i| (at[i as usize].root, i));
+        Some(order)
+    }
+}
+
+/// A sample in the parameters of its bicubic patch.
+#[derive(Clone, Copy)]
+struct Item {
+    x: f64,
+    y: f64,
+    index: u32,
+}
+
+/// A sample whose patch has still to be made: samples of one patch have the same key, and keys go down a chain.
+#[derive(Clone, Copy)]
+struct Keyed {
+    key: u64,
+    item: Item,
+}
+
+/// One bicubic patch, and how what it gives becomes what was asked for.
+struct Group {
+    net: Net,
+    /// What the net is relative to.
+    base: Wide,
+    /// The corner of the piece that the net's parameters start from.
+    corner: u32,
+    /// The scale of position relative to the base, and of first and second derivatives.
+    scales: [f64; 3],
+    flags: Flags,
+}
+
+/// Evaluates samples one run after another; keeps its memory.
+pub(super) struct Worker<'a> {
+    batch: Batch<'a>,
+    walk: Walk,
+    items: Vec<Item>,
+    keyed: Vec<Keyed>,
+}
+
+impl<'a> Worker<'a> {
+    pub(super) fn new(batch: Batch<'a>) -> Worker<'a> {
+        Worker { batch, walk: Walk::default(), items: Vec::new(), keyed: Vec::new() }
+    }
+
+    /// All samples of a chunk in the order given.
+    fn all(&mut self, at: &[Location], order: impl Iterator<Item = u32>, out: &mut Out<'_>) {
+        let mut order = order.peekable();
+        while let Some(first) = order.next() {
+            let root = at[first as usize].root;
+            let item = |index: u32| {
+                let at = &at[index as usize];
+                Item { x: at.u, y: at.v, index }
+            };
+            self.items.clear();
+            self.items.push(item(first));
+            while let Some(index) = order.next_if(|&index| at[index as usize].root == root) {
+                self.items.push(item(index));
+            }
+            self.run(root, out);
+        }
+    }
+
+    /// The samples of one parametric face.
+    fn run(&mut self, root: u32, out: &mut Out<'_>) {
+        if let Some(net) = self.batch.table.root_leaf(root) {
+            let group = self.leaf(net, 0);
+            let items = std::mem::take(&mut self.items);
+            self.evaluate(&group, &items, out);
+            self.items = items;
+            return;
+        }
+        let node = self.batch.table.root_node(root);
+        self.keyed.clear();
+        for &Item { x, y, index } in &self.items {
+            let (piece, u, v, depth) = self.batch.table.descend(node, x, y);
+            self.keyed.push(key(self.batch.table, piece, (u, v), depth, index));
+        }
+        if self.keyed.len() > 1 {
+            self.keyed.sort_unstable_by_key(|keyed| (keyed.key, keyed.item.index));
+        }
+        let keyed = std::mem::take(&mut self.keyed);
+        for same in keyed.chunk_by(|a, b| a.key == b.key) {
+            self.items.clear();
+            self.items.extend(same.iter().map(|keyed| keyed.item));
+            let items = std::mem::take(&mut self.items);
+            match Patch::of(same[0].key) {
+                Patch::Leaf { index, depth } => {
+                    let group = self.leaf(self.batch.table.leaf(index), depth);
+                    self.evaluate(&group, &items, out);
+                }
+                Patch::Tile { tail, step, beyond, tile, depth } => {
+                    let group = self.tile(tail, step, beyond, tile, depth);
+                    self.evaluate(&group, &items, out);
+                }
+                Patch::Vertex { tail } => self.vertex(tail, &items, out),
+            }
+            self.items = items;
+        }
+        self.keyed = keyed;
+    }
+
+    fn leaf(&self, sources: &[u32; 16], depth: i32) -> Group {
+        let points = sources.map(|source| wide(self.batch.points[source as usize]));
+        // Relative to a point of its own, so that parts far from the origin lose nothing.
+        let base = points[5];
+        let scale = f64::from(1u32 << depth);
+        Group {
+            net: points.map(|point| subtract(point, base)),
+            base,
+            corner: 0,
+            scales: [1.0, scale, scale * scale],
+            flags: Flags::NONE,
+        }
+    }
+
+    fn tile(&mut self, tail: u32, step: i32, beyond: i32, tile: usize, depth: i32) -> Group {
+        let Batch { table, points, .. } = self.batch;
+        self.walk.go(table, points, tail, step);
+        let basis = table.basis(table.tail(tail));
+        let scale = 2f64.powi(step + depth);
+        let mut scales = [1.0, scale, scale * scale];
+        let mut flags = Flags::NONE;
+        if beyond > 0 {
+            let shrink = basis.eigenvalue.powi(beyond);
+            let grow = 2f64.powi(beyond);
+            // An infinite scale would make NaN of a zero.
+            scales = [shrink, scale * grow * shrink, (scale * scale * grow * (grow * shrink)).min(f64::MAX)];
+            flags = Flags::BEYOND_NMAX;
+        }
+        let corner = table.tail(tail).corner;
+        Group { net: self.walk.tile(basis, tile), base: self.walk.base(), corner, scales, flags }
+    }
+
+    #[inline]
+    fn evaluate(&self, group: &Group, items: &[Item], out: &mut Out<'_>) {
+        match self.batch.what {
+            Derivatives::None => simd::dispatch(Evaluate::<0> { group, items, out }),
+            Derivatives::First => simd::dispatch(Evaluate::<1> { group, items, out }),
+            Derivatives::Second => simd::dispatch(Evaluate::<2> { group, items, out }),
+        }
+    }
+
+    /// Samples at an extraordinary vertex itself.
+    fn vertex(&mut self, tail: u32, items: &[Item], out: &mut Out<'_>) {
+        let Batch { table, points, what } = self.batch;
+        let (position, masks) = self.walk.corner(table, points, tail);
+        let basis = table.basis(table.tail(tail));
+        let outward = self.walk.outward(basis);
+        let mut flags = flags_at(basis);
+        let mut tangents = [Vec3::ZERO; 2];
+        let mut normal = None;
+        if what > Derivatives::None {
+            tangents = masks.unwrap_or_else(|| {
+                self.walk.go(table, points, tail, MAX_STEPS);
+                let jet = bicubic::one::<1>(&self.walk.tile(basis, 1), 0.0, 0.0);
+                [jet[1], jet[2]].map(|tangent| narrow(tangent).normalized().unwrap_or(Vec3::ZERO))
+            });
+            normal = unit_normal(tangents[0], tangents[1]);
+            // The sharp edges of a reflex corner span the plane the wrong way round.
+            let is_corner = matches!(basis.kind, Kind::Corner { faces: 2, .. });
+            if is_corner && normal.is_some_and(|n| n.dot(outward) < 0.0) {
+                tangents = [tangents[1], tangents[0]];
+                normal = normal.map(|n| -n);
+            }
+            if normal.is_none() {
+                flags = flags.with(Flags::NORMAL_UNDEFINED);
+            }
+        }
+        let [du, dv] = match table.tail(tail).corner {
+            0 => tangents,
+            1 => [-tangents[1], tangents[0]],
+            2 => [-tangents[0], -tangents[1]],
+            _ => [tangents[1], -tangents[0]],
+        };
+        for item in items {
+            let i = item.index as usize;
+            out.position[i] = position;
+            out.flags[i] = flags;
+            if what > Derivatives::None {
+                out.du[i] = du;
+                out.dv[i] = dv;
+                out.normal[i] = normal.unwrap_or(Vec3::ZERO);
+            }
+            if what > Derivatives::First {
+                out.duu[i] = Vec3::ZERO;
+                out.duv[i] = Vec3::ZERO;
+                out.dvv[i] = Vec3::ZERO;
+            }
+        }
+    }
+}
+
+/// What is known about an irregular vertex (`docs/methods/exact_evaluation.md`).
+fn flags_at(basis: &ChainBasis) -> Flags {
+    let flags = Flags::AT_EXTRAORDINARY;
+    let (one_sided, unbounded) = match basis.kind {
+        Kind::Smooth { valence } => (valence < 3, valence > 4),
+        Kind::Cone { .. } => (true, true),
+        Kind::Dart { .. } => (false, true),
+        Kind::Crease { faces, .. } => (faces > 3, faces > 2),
+        Kind::Corner { faces, .. } => (faces > 2, faces > 2),
+    };
+    let flags = if one_sided { flags.with(Flags::NORMAL_ONE_SIDED) } else { flags };
+    if unbounded { flags.with(Flags::UNBOUNDED_CURVATURE) } else { flags }
+}
+
+/// The patch that a key stands for.
+enum Patch {
+    Leaf { index: u32, depth: i32 },
+    Tile { tail: u32, step: i32, beyond: i32, tile: usize, depth: i32 },
+    Vertex { tail: u32 },
+}
+
+/// Bits of a key: 1 for a tail, 30 for which piece, 5 for how often it was halved, 12 for the step counted without end,
+/// 2 for the tile; a step of zero is the vertex.
+fn key(table: &PatchTable, piece: Piece, (u, v): (f64, f64), depth: i32, index: u32) -> Keyed {
+    let head = |tail: u64, piece: u32| (tail << 30 | u64::from(piece)) << 5 | depth as u64;
+    match piece {
+        Piece::Leaf(leaf) => Keyed { key: head(0, leaf) << 14, item: Item { x: u, y: v, index } },
+        Piece::Tail(tail) => {
+            let (x, y) = to_corner(table.tail(tail).corner, u, v);
+            let (step, tile, x, y) = place(x, y);
+            Keyed { key: head(1, tail) << 14 | step << 2 | tile, item: Item { x, y, index } }
+        }
+        Piece::Split(_) => unreachable!("one descends to a leaf or a tail"),
+    }
+}
+
+impl Patch {
+    fn of(key: u64) -> Patch {
+        let (head, step, tile) = (key >> 14, (key >> 2 & 0xfff) as i32, (key & 3) as usize);
+        let (depth, piece) = ((head & 0x1f) as i32, (head >> 5 & 0x3fff_ffff) as u32);
+        if head >> 35 == 0 {
+            return Patch::Leaf { index: piece, depth };
+        }
+        if step == 0 {
+            return Patch::Vertex { tail: piece };
+        }
+        let beyond = (step - MAX_STEPS).max(0);
+        Patch::Tile { tail: piece, step: step - beyond, beyond, tile, depth }
+    }
+}
+
+/// Step and tile of a point in the frame of an irregular corner, and the parameters in the tile. Step zero is the corner
+/// itself. No logarithm: the exponent of the larger parameter says how often it can be doubled.
+#[inline]
+fn place(x: f64, y: f64) -> (u64, u64, f64, f64) {
+    let (mut x, mut y) = (x, y);
+    let mut step = 0;
+    while x.max(y) < f64::MIN_POSITIVE {
+        if x.max(y) <= 0.0 {
+            return (0, 0, 0.0, 0.0);
+        }
+        // No exponent to read: doubled by hand.
+        (x, y, step) = (2.0 * x, 2.0 * y, step + 1);
+    }
+    let exponent = (x.max(y).to_bits() >> 52) as i32;
+    let doublings = (1023 - exponent).max(1);
+    // A power of two of 1023 and less is a number, one of 1024 is not.
+    let half = doublings / 2;
+    let (first, second) = (2f64.powi(half), 2f64.powi(doublings - half));
+    (x, y) = (x * first * second, y * first * second);
+    let tile = match (x >= 1.0, y >= 1.0) {
+        (true, false) => 0,
+        (true, true) => 1,
+        _ => 2,
+    };
+    let inside = |t: f64| if t >= 1.0 { t - 1.0 } else { t };
+    ((step + doublings) as u64, tile, inside(x), inside(y))
+}
+
+/// All samples of one patch, for [`simd::dispatch`].
+struct Evaluate<'a, 'o, const ORDER: usize> {
+    group: &'a Group,
+    items: &'a [Item],
+    out: &'a mut Out<'o>,
+}
+
+impl<const ORDER: usize> simd::Kernel for Evaluate<'_, '_, ORDER> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Evaluate { group, items, out } = self;
+        for items in items.chunks(LANES) {
+            if let &[item] = items {
+                let jet = bicubic::one::<ORDER>(&group.net, item.x, item.y);
+                let jet = jet.map(|part| [[part[0]], [part[1]], [part[2]]]);
+                write::<ORDER, 1>(group, items, jet, out);
+                continue;
+            }
+            let at = |l: usize| items[l.min(items.len() - 1)];
+            let x: Lanes<LANES> = std::array::from_fn(|l| at(l).x);
+            let y: Lanes<LANES> = std::array::from_fn(|l| at(l).y);
+            let jet = bicubic::many::<ORDER, LANES>(&group.net, x, y);
+            write::<ORDER, LANES>(group, items, jet, out);
+        }
+    }
+}
+
+/// Turns jets into the directions and scales of the face, and writes them.
+#[inline(always)]
+fn write<const ORDER: usize, const L: usize>(
+    group: &Group,
+    items: &[Item],
+    jet: Jet<[Lanes<L>; 3]>,
+    out: &mut Out<'_>,
+) {
+    let vector = |part: &[Lanes<L>; 3], l: usize, scale: f64| {
+        Vec3::new(scale * part[0][l], scale * part[1][l], scale * part[2][l])
+    };
+    let [position_scale, first, second] = group.scales;
+    let base = narrow(group.base);
+    for (l, item) in items.iter().enumerate() {
+        let i = item.index as usize;
+        out.position[i] = base + vector(&jet[0], l, position_scale);
+        out.flags[i] = group.flags;
+    }
+    if ORDER == 0 {
+        return;
+    }
+    // The corner's frame is turned against the face's.
+    let (along, along_sign, across, across_sign) = match group.corner {
+        0 => (1, 1.0, 2, 1.0),
+        1 => (2, -1.0, 1, 1.0),
+        2 => (1, -1.0, 2, -1.0),
+        _ => (2, 1.0, 1, -1.0),
+    };
+    let normals = normals(&jet[1], &jet[2]);
+    for (l, item) in items.iter().enumerate() {
+        let i = item.index as usize;
+        out.du[i] = vector(&jet[along], l, along_sign * first);
+        out.dv[i] = vector(&jet[across], l, across_sign * first);
+        let mut normal = vector(&normals.vectors, l, 1.0);
+        if !normals.sure[l] {
+            let tangents = [1, 2].map(|part: usize| vector(&jet[part], l, 1.0));
+            normal = unit_normal(tangents[0], tangents[1]).unwrap_or_else(|| {
+                out.flags[i] = out.flags[i].with(Flags::NORMAL_UNDEFINED);
+                Vec3::ZERO
+            });
+        }
+        out.normal[i] = normal;
+    }
+    if ORDER == 1 {
+        return;
+    }
+    let (along, mixed_sign, across) = match group.corner {
+        0 | 2 => (3, 1.0, 5),
+        _ => (5, -1.0, 3),
+    };
+    for (l, item) in items.iter().enumerate() {
+        let i = item.index as usize;
+        out.duu[i] = vector(&jet[along], l, second);
+        out.duv[i] = vector(&jet[4], l, mixed_sign * second);
+        out.dvv[i] = vector(&jet[across], l, second);
+    }
+}
+
+/// Unit normals in lanes, and for each whether its arithmetic is beyond doubt.
+struct Normals<const L: usize> {
+    vectors: [Lanes<L>; 3],
+    sure: [bool; L],
+}
+
+#[inline(always)]
+fn normals<const L: usize>(a: &[Lanes<L>; 3], b: &[Lanes<L>; 3]) -> Normals<L> {
+    let product =
+        |i: usize, j: usize| -> Lanes<L> { std::array::from_fn(|l| a[i][l] * b[j][l] - a[j][l] * b[i][l]) };
+    let cross = [product(1, 2), product(2, 0), product(0, 1)];
+    let square = |v: &[Lanes<L>; 3]| -> Lanes<L> {
+        std::array::from_fn(|l| v[0][l] * v[0][l] + v[1][l] * v[1][l] + v[2][l] * v[2][l])
+    };
+    let (length, first, second) = (square(&cross), square(a), square(b));
+    // Squares of products of derivatives: within these no step has over- or underflown.
+    const RANGE: std::ops::Range<f64> = 1e-200..1e200;
+    let sure = std::array::from_fn(|l| {
+        length[l] > PARALLEL * PARALLEL * first[l] * second[l] && RANGE.contains(&length[l])
+    });
+    let vectors = std::array::from_fn(|c| std::array::from_fn(|l| cross[c][l] / length[l].sqrt()));
+    Normals { vectors, sure }
+}
+
+/// The unit normal of two tangents of any size; nothing where they are parallel or vanish.
+fn unit_normal(a: Vec3, b: Vec3) -> Option<Vec3> {
+    let (a, b) = (a.normalized()?, b.normalized()?);
+    let cross = a.cross(b);
+    if cross.length() > PARALLEL { cross.normalized() } else { None }
+}
+
+impl Worker<'_> {
+    /// One sample.
+    pub(super) fn lone(&mut self, at: Location, out: &mut Out<'_>) {
+        self.items.push(Item { x: at.u, y: at.v, index: 0 });
+        self.run(at.root, out);
+        self.items.clear();
+        self.walk.forget();
+    }
+}

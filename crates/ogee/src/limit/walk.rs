@@ -1,0 +1,141 @@
+//! Walking down a chain of rings.
+//!
+//! A ring is kept relative to a point close to the limit of its corner: rings shrink towards that limit, and taken from
+//! anywhere else their points would lose a digit for every digit that they move together. So derivatives and normals keep
+//! their relative accuracy at every depth.
+
+use crate::math::Vec3;
+use crate::patch::{ChainBasis, PatchTable, Tail, Wide};
+
+/// Steps that are taken. Below them the surface is its own limit shape, scaled: 2^-64 is less than the rounding of
+/// parameters around 1.
+pub(super) const MAX_STEPS: i32 = 64;
+
+/// From this step on the limit is subtracted in every step. Before, rings are too large for it to matter.
+const RECENTRE_FROM: i32 = 4;
+
+/// A ring and the step it is at; good for one tail after another, without new memory.
+#[derive(Debug, Default)]
+pub(super) struct Walk {
+    tail: Option<u32>,
+    step: i32,
+    ring: Vec<Wide>,
+    fine: Vec<Wide>,
+    base: Wide,
+}
+
+/// A point with a fourth coordinate of zero.
+#[inline(always)]
+pub(super) fn wide(p: Vec3) -> Wide {
+    [p.x, p.y, p.z, 0.0]
+}
+
+#[inline(always)]
+pub(super) fn narrow(p: Wide) -> Vec3 {
+    Vec3::new(p[0], p[1], p[2])
+}
+
+#[inline(always)]
+pub(super) fn add(a: Wide, b: Wide) -> Wide {
+    std::array::from_fn(|c| a[c] + b[c])
+}
+
+#[inline(always)]
+pub(super) fn subtract(a: Wide, b: Wide) -> Wide {
+    std::array::from_fn(|c| a[c] - b[c])
+}
+
+impl Walk {
+    /// Forgets which tail it was on: its points may have moved.
+    pub(super) fn forget(&mut self) {
+        self.tail = None;
+    }
+
+    /// Goes to the ring of a tail, before any step.
+    fn start(&mut self, table: &PatchTable, points: &[Vec3], number: u32, tail: Tail) {
+        let sources = table.ring(tail);
+        let room = table.basis(tail).work_count();
+        self.ring.resize(room.max(self.ring.len()), [0.0; 4]);
+        self.fine.resize(room.max(self.fine.len()), [0.0; 4]);
+        self.base = wide(points[sources[0] as usize]);
+        for (value, &source) in self.ring.iter_mut().zip(sources) {
+            *value = subtract(wide(points[source as usize]), self.base);
+        }
+        self.tail = Some(number);
+        self.step = 0;
+    }
+
+    /// Goes to a step of a tail, forward if it can.
+    pub(super) fn go(&mut self, table: &PatchTable, points: &[Vec3], number: u32, step: i32) {
+        let tail = table.tail(number);
+        if self.tail != Some(number) || self.step > step {
+            self.start(table, points, number, tail);
+        }
+        let basis = table.basis(tail);
+        while self.step < step {
+            if self.step > 0 {
+                std::mem::swap(&mut self.ring, &mut self.fine);
+                if self.step >= RECENTRE_FROM {
+                    self.recentre(basis);
+                }
+            }
+            basis.step(&mut self.ring[..basis.work_count()], &mut self.fine);
+            self.step += 1;
+        }
+    }
+
+    fn recentre(&mut self, basis: &ChainBasis) {
+        let limit = weighted(&basis.position, &self.ring);
+        self.base = add(self.base, limit);
+        for value in &mut self.ring[..basis.ring_count()] {
+            *value = subtract(*value, limit);
+        }
+    }
+
+    /// What the points of [`Walk::tile`] are relative to.
+    pub(super) fn base(&self) -> Wide {
+        self.base
+    }
+
+    /// The net of a tile of this step: 0 at `(1, 0)`, 1 at `(1, 1)`, 2 at `(0, 1)`.
+    #[inline]
+    pub(super) fn tile(&self, basis: &ChainBasis, tile: usize) -> [Wide; 16] {
+        basis.tiles[tile].map(|point| self.fine[point as usize])
+    }
+
+    /// Limit position of the corner, and two vectors that span the tangent plane where there are masks for them.
+    pub(super) fn corner(
+        &mut self,
+        table: &PatchTable,
+        points: &[Vec3],
+        number: u32,
+    ) -> (Vec3, Option<[Vec3; 2]>) {
+        let tail = table.tail(number);
+        self.start(table, points, number, tail);
+        let basis = table.basis(tail);
+        let position = narrow(add(self.base, weighted(&basis.position, &self.ring)));
+        let tangents = basis.tangents.as_ref();
+        let tangents =
+            tangents.map(|[a, b]| [narrow(weighted(a, &self.ring)), narrow(weighted(b, &self.ring))]);
+        (position, tangents)
+    }
+
+    /// The sum of the faces' normals around the corner, as large as they are: which way the surface looks.
+    pub(super) fn outward(&self, basis: &ChainBasis) -> Vec3 {
+        let count = basis.kind.inner_count();
+        let at = |i: usize| narrow(self.ring[if i < count { i } else { 1 }]) - narrow(self.ring[0]);
+        (0..basis.kind.faces() as usize).fold(Vec3::ZERO, |sum, i| {
+            sum + at(1 + 2 * i).cross(at(2 + 2 * i)) + at(2 + 2 * i).cross(at(3 + 2 * i))
+        })
+    }
+}
+
+fn weighted(weights: &[f64], ring: &[Wide]) -> Wide {
+    let mut sum = [0.0; 4];
+    for (&weight, point) in weights.iter().zip(ring) {
+        for c in 0..4 {
+            sum[c] += weight * point[c];
+        }
+    }
+    sum
+}

@@ -1,0 +1,502 @@
+//! `ChainBasis`: how the ring around an irregular corner makes the next ring, and the bicubic tiles beside it.
+//!
+//! Around a corner that refinement reproduces, a quad is an infinite chain of L-shaped rings of three bicubic tiles,
+//! each ring half as large as the one before (Stam 1998; `docs/methods/exact_evaluation.md`). All is decided by the
+//! *ring* of the corner:
+//!
+//! ```text
+//!  f .. i  h                 0        the corner itself
+//!  |    |  |                 1 + 2i   neighbour e_i, counter-clockwise; e_p and e_(p+1) are the quad's own
+//!  d1-- e1-+--g              2 + 2i   diagonal d_i of the face between e_i and e_(i+1)
+//!  |    |quad |              then     (2,-1) (2,0) (2,1) (2,2) (1,2) (0,2) (-1,2) in the grid of the quad,
+//!  e2 - 0 - e0-+                      without the first or last where a sharp edge ends the surface there
+//! ```
+//!
+//! In a closed ring the quad's face is the first; in a sector between sharp edges its position is counted from the
+//! first sharp edge, and there is one neighbour more than diagonals. A [`Kind`] decides the rest, so each kind is worked
+//! out once: a model of it is refined by the ordinary masks, and what they say is kept as weights.
+
+use super::masks;
+use super::surroundings::{Mirrored, Surroundings};
+use crate::math::{Vec3, simd};
+use crate::mesh::{Boundary, Creasing, EdgeId, FaceId, FaceList, HalfedgeId, Scheme, Topology, VertexId};
+use crate::rules::masks as rules;
+use crate::rules::{Level, SharpEdge, Sparse};
+use crate::stencil::Row;
+
+/// What repeats itself around an irregular corner, seen from one of its quads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Kind {
+    /// A smooth interior vertex.
+    Smooth { valence: u32 },
+    /// An interior vertex that stays, no sharp edge at it.
+    Cone { valence: u32 },
+    /// An interior vertex where one crease ends; `crease` is its edge, counted from the quad's own first.
+    Dart { valence: u32, crease: u32 },
+    /// A sector beside a crease or boundary.
+    Crease { faces: u32, position: u32 },
+    /// A sector at a vertex that stays.
+    Corner { faces: u32, position: u32 },
+}
+
+impl Kind {
+    /// Faces all the way round.
+    pub(crate) fn is_closed(self) -> bool {
+        matches!(self, Kind::Smooth { .. } | Kind::Cone { .. } | Kind::Dart { .. })
+    }
+
+    /// Number of faces around the corner.
+    pub(crate) fn faces(self) -> u32 {
+        match self {
+            Kind::Smooth { valence } | Kind::Cone { valence } | Kind::Dart { valence, .. } => valence,
+            Kind::Crease { faces, .. } | Kind::Corner { faces, .. } => faces,
+        }
+    }
+
+    fn position(self) -> u32 {
+        match self {
+            Kind::Smooth { .. } | Kind::Cone { .. } | Kind::Dart { .. } => 0,
+            Kind::Crease { position, .. } | Kind::Corner { position, .. } => position,
+        }
+    }
+
+    /// False if the quad's first edge at the corner is sharp.
+    pub(crate) fn continues_below(self) -> bool {
+        match self {
+            Kind::Smooth { .. } | Kind::Cone { .. } => true,
+            Kind::Dart { crease, .. } => crease != 0,
+            Kind::Crease { position, .. } | Kind::Corner { position, .. } => position > 0,
+        }
+    }
+
+    /// False if the quad's other edge at the corner is sharp.
+    pub(crate) fn continues_left(self) -> bool {
+        match self {
+            Kind::Smooth { .. } | Kind::Cone { .. } => true,
+            Kind::Dart { valence, crease } => crease != 1 % valence,
+            Kind::Crease { faces, position } | Kind::Corner { faces, position } => position + 1 < faces,
+        }
+    }
+
+    /// Number of points around the corner, itself included, that decide its limit.
+    pub(crate) fn inner_count(self) -> usize {
+        2 * self.faces() as usize + if self.is_closed() { 1 } else { 2 }
+    }
+
+    /// Number of points of the ring.
+    pub(crate) fn ring_count(self) -> usize {
+        self.inner_count() + 5 + usize::from(self.continues_below()) + usize::from(self.continues_left())
+    }
+}
+
+/// A point with a fourth coordinate of zero: what lanes of four like.
+pub(crate) type Wide = [f64; 4];
+
+/// Weighted sums, each a few groups of sources that share a weight: most masks have one or two.
+#[derive(Clone, Debug, Default)]
+struct Sums {
+    /// For each sum the end of its groups.
+    ends: Vec<u32>,
+    /// Weight and end of sources.
+    groups: Vec<(f64, u32)>,
+    sources: Vec<u32>,
+}
+
+impl Sums {
+    fn push(&mut self, mut terms: Vec<(u32, f64)>) {
+        terms.sort_by_key(|&(source, _)| source);
+        terms.dedup_by(|next, kept| {
+            let same = next.0 == kept.0;
+            if same {
+                kept.1 += next.1;
+            }
+            same
+        });
+        terms.retain(|&(_, weight)| weight != 0.0);
+        terms.sort_by(|a, b| b.1.total_cmp(&a.1));
+        for group in terms.chunk_by(|a, b| a.1 == b.1) {
+            self.sources.extend(group.iter().map(|&(source, _)| source));
+            self.groups.push((group[0].1, self.sources.len() as u32));
+        }
+        self.ends.push(self.groups.len() as u32);
+    }
+
+    fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    fn terms(&self, row: usize) -> Vec<(usize, f64)> {
+        let first = if row == 0 { 0 } else { self.ends[row - 1] as usize };
+        let mut start = if first == 0 { 0 } else { self.groups[first - 1].1 as usize };
+        let mut out = Vec::new();
+        for &(weight, end) in &self.groups[first..self.ends[row] as usize] {
+            out.extend(self.sources[start..end as usize].iter().map(|&source| (source as usize, weight)));
+            start = end as usize;
+        }
+        out
+    }
+
+    /// `out[first ..]` becomes the sums over `from`.
+    #[inline(always)]
+    fn apply(&self, from: &[Wide], out: &mut [Wide]) {
+        let (mut group, mut source) = (0, 0);
+        for (&end, out) in self.ends.iter().zip(out) {
+            let mut value = [0.0; 4];
+            for &(weight, last) in &self.groups[group..end as usize] {
+                let mut sum = [0.0; 4];
+                for &from_index in &self.sources[source..last as usize] {
+                    let point = &from[from_index as usize];
+                    for c in 0..4 {
+                        sum[c] += point[c];
+                    }
+                }
+                for c in 0..4 {
+                    value[c] += weight * sum[c];
+                }
+                source = last as usize;
+            }
+            group = end as usize;
+            *out = value;
+        }
+    }
+}
+
+/// One step of a chain of one kind, and where it leads.
+#[derive(Clone, Debug)]
+pub(crate) struct ChainBasis {
+    pub(crate) kind: Kind,
+    /// Face points, over the ring.
+    face_points: Sums,
+    /// The next ring, then the other points of the tiles; over the ring and the face points after it.
+    fine: Sums,
+    /// Nets of the three tiles beside the corner, `i + 4 j`, as numbers of fine points: at `(1,0)`, `(1,1)`, `(0,1)`.
+    pub(crate) tiles: [[u32; 16]; 3],
+    /// Weights of the limit position over the inner points.
+    pub(crate) position: Vec<f64>,
+    /// Weights of two vectors that span the tangent plane, along the quad's own edges where the vertex is smooth;
+    /// `None` where there is no mask.
+    pub(crate) tangents: Option<[Vec<f64>; 2]>,
+    /// By how much a step shrinks the ring in the end.
+    pub(crate) eigenvalue: f64,
+}
+
+impl ChainBasis {
+    pub(crate) fn new(kind: Kind) -> ChainBasis {
+        let model = Model::new(kind);
+        let count = kind.ring_count();
+        let child = model.level.split();
+        let surroundings = Surroundings::new(&child);
+        // The quad's own corner comes first in its face, so its child there is the quad of the same halfedge.
+        let halfedge = model.level.topology().first(model.face);
+        let ring = surroundings.ring(HalfedgeId(4 * halfedge.0), kind);
+        debug_assert_eq!(ring.len(), count);
+        let mut fine_points = ring;
+        let tiles = [1, 2, 3].map(|corner| {
+            let quad = halfedge.0 + corner;
+            // Aligned with the quad, not turned with its corner.
+            let origin = HalfedgeId(4 * quad + (4 - corner));
+            surroundings.net(origin).map(|point| number_of(&mut fine_points, point))
+        });
+        let mut terms = Terms { level: &model.level, count, faces: Vec::new(), row: Row::new() };
+        let mut fine = Sums::default();
+        for point in &fine_points {
+            let row = terms.of(point);
+            fine.push(row);
+        }
+        let mut face_points = Sums::default();
+        for &face in &terms.faces {
+            let topology = model.level.topology();
+            let corners = topology.halfedges(face).map(|h| (topology.origin(h).0 as u32, 1.0 / 4.0));
+            face_points.push(corners.collect());
+        }
+        let mut basis = ChainBasis {
+            kind,
+            face_points,
+            fine,
+            tiles,
+            position: Vec::new(),
+            tangents: None,
+            eigenvalue: 0.0,
+        };
+        basis.position = basis.limit_position();
+        basis.tangents = tangent_weights(kind);
+        basis.eigenvalue = basis.subdominant();
+        basis
+    }
+
+    /// Memory in bytes, about.
+    pub(crate) fn bytes(&self) -> usize {
+        let sums = |sums: &Sums| 4 * sums.ends.len() + 16 * sums.groups.len() + 2 * sums.sources.len();
+        size_of::<ChainBasis>()
+            + sums(&self.face_points)
+            + sums(&self.fine)
+            + 8 * self.position.len()
+            + self.tangents.as_ref().map_or(0, |[a, b]| 8 * (a.len() + b.len()))
+    }
+
+    /// Number of points in a ring.
+    pub(crate) fn ring_count(&self) -> usize {
+        self.kind.ring_count()
+    }
+
+    /// Room that a step needs.
+    pub(crate) fn work_count(&self) -> usize {
+        (self.ring_count() + self.face_points.len()).max(self.fine.len())
+    }
+
+    /// The fine points of a ring, the first of them the next ring. `ring` has room behind it for face points.
+    #[inline]
+    pub(crate) fn step(&self, ring: &mut [Wide], fine: &mut [Wide]) {
+        simd::dispatch(Step { basis: self, ring, fine });
+    }
+
+    /// Weights over the ring of a fine point.
+    pub(crate) fn step_of(&self, row: usize) -> Vec<(usize, f64)> {
+        let count = self.ring_count();
+        let mut out: Vec<(usize, f64)> = Vec::new();
+        for (source, weight) in self.fine.terms(row) {
+            if source < count {
+                out.push((source, weight));
+            } else {
+                let inner = self.face_points.terms(source - count);
+                out.extend(inner.into_iter().map(|(source, share)| (source, weight * share)));
+            }
+        }
+        out
+    }
+
+    /// The left eigenvector of the eigenvalue one, over the inner points.
+    fn limit_position(&self) -> Vec<f64> {
+        let count = self.kind.inner_count();
+        match self.kind {
+            Kind::Cone { .. } | Kind::Corner { .. } => unit(count, 0),
+            Kind::Smooth { .. } | Kind::Crease { .. } => mask_weights(self.kind, |frame| frame.position),
+            Kind::Dart { .. } => {
+                let rows: Vec<_> = (0..count).map(|row| self.step_of(row)).collect();
+                let mut weights = unit(count, 0);
+                for _ in 0..POWER_STEPS {
+                    weights = times(&weights, &rows);
+                }
+                weights
+            }
+        }
+    }
+
+    /// The largest eigenvalue below one.
+    fn subdominant(&self) -> f64 {
+        if let Kind::Smooth { valence } = self.kind {
+            return masks::subdominant(std::f64::consts::TAU / f64::from(valence));
+        }
+        let count = self.kind.inner_count();
+        let rows: Vec<_> = (0..count).map(|row| self.step_of(row)).collect();
+        // Of no symmetry, so that every mode is in it.
+        let mut values: Vec<f64> = (0..count).map(|i| (i as f64 * 1.7).sin() + 0.1 * i as f64).collect();
+        let mut ratio = 1.0;
+        for _ in 0..POWER_STEPS {
+            let next: Vec<f64> =
+                rows.iter().map(|row| row.iter().map(|&(source, w)| w * values[source]).sum()).collect();
+            let mean: f64 = self.position.iter().zip(&next).map(|(w, x)| w * x).sum();
+            let next: Vec<f64> = next.iter().map(|x| x - mean).collect();
+            let size = |values: &[f64]| values.iter().map(|x| x * x).sum::<f64>().sqrt();
+            ratio = size(&next) / size(&values);
+            let scale = 1.0 / size(&next);
+            values = next.iter().map(|x| x * scale).collect();
+        }
+        ratio
+    }
+}
+
+/// After so many steps every mode but the wanted one has gone: the slowest ratio of eigenvalues is below 0.7 where it
+/// matters.
+const POWER_STEPS: usize = 128;
+
+fn unit(count: usize, at: usize) -> Vec<f64> {
+    let mut weights = vec![0.0; count];
+    weights[at] = 1.0;
+    weights
+}
+
+/// A row times a matrix of rows.
+fn times(weights: &[f64], rows: &[Vec<(usize, f64)>]) -> Vec<f64> {
+    let mut out = vec![0.0; weights.len()];
+    for (&weight, row) in weights.iter().zip(rows) {
+        for &(source, share) in row {
+            out[source] += weight * share;
+        }
+    }
+    out
+}
+
+/// The weights of a linear mask, one inner point at a time.
+fn mask_weights(kind: Kind, part: impl Fn(&masks::Frame) -> Vec3) -> Vec<f64> {
+    let count = kind.inner_count();
+    let value = |at: usize, which: usize| if at == which { Vec3::new(1.0, 0.0, 0.0) } else { Vec3::ZERO };
+    let of_point = |which: usize| {
+        let edges: Vec<Vec3> = (1..count).step_by(2).map(|at| value(at, which)).collect();
+        let diagonals: Vec<Vec3> = (2..count).step_by(2).map(|at| value(at, which)).collect();
+        let frame = match kind {
+            Kind::Smooth { .. } => masks::smooth(value(0, which), &edges, &diagonals),
+            Kind::Crease { .. } => masks::crease(value(0, which), &edges, &diagonals),
+            Kind::Corner { .. } | Kind::Cone { .. } | Kind::Dart { .. } => {
+                masks::corner(value(0, which), &edges)
+            }
+        };
+        part(&frame).x
+    };
+    (0..count).map(of_point).collect()
+}
+
+/// Tangent masks where they exist: on a crease with more than three faces, at a corner with more than two, at a cone
+/// there is no tangent plane; at a dart there is, but no mask.
+fn tangent_weights(kind: Kind) -> Option<[Vec<f64>; 2]> {
+    let [first, second] = match kind {
+        Kind::Smooth { valence } if valence > 2 => {
+            let [along, across] = [0, 1].map(|which| mask_weights(kind, |frame| frame.tangents[which]));
+            let (sin, cos) = (std::f64::consts::TAU / f64::from(valence)).sin_cos();
+            let other = along.iter().zip(&across).map(|(a, b)| cos * a + sin * b).collect();
+            [along, other]
+        }
+        Kind::Crease { faces: 1..=3, .. } | Kind::Corner { faces: 2, .. } => {
+            [0, 1].map(|which| mask_weights(kind, |frame| frame.tangents[which]))
+        }
+        _ => return None,
+    };
+    Some([first, second])
+}
+
+/// The number of a fine point; one that is new is added.
+fn number_of(points: &mut Vec<Mirrored>, point: Mirrored) -> u32 {
+    let number = points.iter().position(|other| *other == point).unwrap_or_else(|| {
+        points.push(point);
+        points.len() - 1
+    });
+    number as u32
+}
+
+/// What a point of the refined model is in terms of the model's ring and its face points.
+struct Terms<'a> {
+    level: &'a Level,
+    count: usize,
+    /// Faces whose points are used, in the order of their numbers.
+    faces: Vec<FaceId>,
+    row: Row,
+}
+
+impl Terms<'_> {
+    fn of(&mut self, point: &Mirrored) -> Vec<(u32, f64)> {
+        let mut out = Vec::new();
+        let topology = self.level.topology();
+        let (vertices, faces) = (topology.vertex_count() as u32, topology.face_count() as u32);
+        for &(fine, share) in point {
+            self.row.clear();
+            if fine < vertices {
+                rules::vertex_terms(self.level, VertexId(fine), &mut self.row);
+            } else if fine < vertices + faces {
+                self.row.add_face_point(FaceId(fine - vertices), 1.0);
+            } else {
+                let side = topology.side(EdgeId(fine - vertices - faces));
+                rules::edge_terms(self.level, side, &mut self.row);
+            }
+            let (on_vertices, on_faces) = self.row.terms();
+            for &(vertex, weight) in on_vertices {
+                debug_assert!((vertex as usize) < self.count, "the ring decides its tiles");
+                out.push((vertex as u32, share * weight));
+            }
+            for &(face, weight) in on_faces {
+                let known = self.faces.iter().position(|&other| other.0 == face);
+                let number = known.unwrap_or_else(|| {
+                    self.faces.push(FaceId(face));
+                    self.faces.len() - 1
+                });
+                out.push(((self.count + number) as u32, share * weight));
+            }
+        }
+        out
+    }
+}
+
+/// A mesh whose vertices are the points of the ring, with the faces around the corner and those outside the quad.
+struct Model {
+    level: Level,
+    /// The quad; its first corner is the irregular one.
+    face: FaceId,
+}
+
+impl Model {
+    fn new(kind: Kind) -> Model {
+        let (faces, position) = (kind.faces(), kind.position());
+        let edge = |i: u32| 1 + 2 * if kind.is_closed() { i % faces } else { i };
+        let diagonal = |i: u32| 2 + 2 * (i % faces);
+        let mut list = FaceList::new();
+        for i in 0..faces {
+            list.push(&[0, edge(i), diagonal(i), edge(i + 1)]);
+        }
+        let (first, across, second) = (edge(position), diagonal(position), edge(position + 1));
+        // Numbers of the outer points; those that are no part of the ring come after it.
+        let mut next = kind.inner_count() as u32;
+        let mut number = |exists: bool| {
+            next += u32::from(exists);
+            if exists { next - 1 } else { u32::MAX }
+        };
+        let below = number(kind.continues_below());
+        let outer = [number(true), number(true), number(true), number(true), number(true)];
+        let left = number(kind.continues_left());
+        // Beside a dart's crease the surface goes on, though the quad's own net does not need it.
+        let open_below = matches!(kind, Kind::Dart { .. }) && below == u32::MAX;
+        let open_left = matches!(kind, Kind::Dart { .. }) && left == u32::MAX;
+        let below = if open_below { number(true) } else { below };
+        let left = if open_left { number(true) } else { left };
+        let [right, right_above, corner, above_right, above] = outer;
+        let along_first = list.len() as u32;
+        list.push(&[first, right, right_above, across]);
+        list.push(&[across, right_above, corner, above_right]);
+        let along_second = list.len() as u32;
+        list.push(&[second, across, above_right, above]);
+        if below != u32::MAX {
+            list.push(&[diagonal(position + faces - 1), below, right, first]);
+        }
+        if left != u32::MAX {
+            list.push(&[diagonal(position + 1), second, above, left]);
+        }
+        let topology = Topology::of_part(&list, next as usize);
+        let mut creases = Vec::new();
+        if let Kind::Dart { crease, .. } = kind {
+            creases.push(HalfedgeId(4 * crease));
+            if open_below {
+                creases.push(HalfedgeId(4 * along_first));
+            }
+            if open_left {
+                creases.push(HalfedgeId(4 * along_second + 3));
+            }
+        }
+        let sharp = creases
+            .iter()
+            .map(|&halfedge| (topology.edge(halfedge).0, SharpEdge { halfedge, sharpness: f64::INFINITY }));
+        let sharp = Sparse::new(sharp.collect());
+        let stays = matches!(kind, Kind::Cone { .. } | Kind::Corner { .. });
+        let corners = if stays { vec![(0, f64::INFINITY)] } else { Vec::new() };
+        // The rim of the model is no boundary; on real ones a vertex stays where its kind says so.
+        let scheme = Scheme { boundary: Boundary::EdgeOnly, creasing: Creasing::Uniform };
+        let level = Level::with_sharpness(topology, scheme, sharp, Sparse::new(corners), Vec::new());
+        Model { level, face: FaceId(position) }
+    }
+}
+
+/// One step, for [`simd::dispatch`].
+struct Step<'a> {
+    basis: &'a ChainBasis,
+    ring: &'a mut [Wide],
+    fine: &'a mut [Wide],
+}
+
+impl simd::Kernel for Step<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let count = self.basis.kind.ring_count();
+        let (ring, face_points) = self.ring.split_at_mut(count);
+        self.basis.face_points.apply(ring, face_points);
+        self.basis.fine.apply(self.ring, self.fine);
+    }
+}
