@@ -239,10 +239,10 @@ impl<'a> Worker<'a> {
         let mut scales = [1.0, scale, scale * scale];
         let mut flags = Flags::NONE;
         if beyond > 0 {
-            let shrink = basis.eigenvalue.powi(beyond);
-            let grow = 2f64.powi(beyond);
+            // Products of powers would leave the range of numbers where the power of the product does not.
+            let power = |factor: f64| (factor * basis.eigenvalue).powi(beyond);
             // An infinite scale would make NaN of a zero.
-            scales = [shrink, scale * grow * shrink, (scale * scale * grow * (grow * shrink)).min(f64::MAX)];
+            scales = [power(1.0), scale * power(2.0), (scale * scale * power(4.0)).min(f64::MAX)];
             flags = Flags::BEYOND_NMAX;
         }
         let corner = table.tail(tail).corner;
