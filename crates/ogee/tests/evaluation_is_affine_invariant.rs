@@ -4,11 +4,13 @@
 mod cages;
 
 use cages::{at_corner, turned};
-use ogee::{ControlMesh, FaceId, FaceList, Level, LimitSurface, PatchTable, SurfaceJet, Vec3};
+use ogee::{ControlMesh, FaceId, FaceList, Flags, Level, LimitSurface, PatchTable, SurfaceJet, Vec3};
 
 const POSITION: f64 = 1e-13;
 /// Of the longest derivative of the order, or of the size if that is more.
-const DERIVATIVES: f64 = 1e-12;
+const FIRST: f64 = 1e-12;
+/// Where a crease has faded pieces are a thousandth of a face wide, and rounding counts a million times.
+const SECOND: f64 = 1e-9;
 
 const PLACES: [(f64, f64); 7] =
     [(0.0, 0.0), (0.3, 0.6), (0.5, 0.5), (0.0, 0.31), (1.0, 0.2), (0.01, 0.003), (0.99, 0.96)];
@@ -18,10 +20,10 @@ fn assert_same(place: &str, size: f64, ours: &SurfaceJet, wanted: &SurfaceJet) {
     assert!(gap <= POSITION, "{place}: {gap:e}");
     let longest = |all: &[Vec3]| all.iter().map(|d| d.length()).fold(0.0, f64::max);
     let first = longest(&[ours.du - wanted.du, ours.dv - wanted.dv]);
-    assert!(first <= DERIVATIVES * longest(&[wanted.du, wanted.dv]).max(size), "{place}: {first:e}");
+    assert!(first <= FIRST * longest(&[wanted.du, wanted.dv]).max(size), "{place}: {first:e}");
     let second = longest(&[ours.duu - wanted.duu, ours.duv - wanted.duv, ours.dvv - wanted.dvv]);
     let measure = longest(&[wanted.duu, wanted.duv, wanted.dvv]).max(size);
-    assert!(second <= DERIVATIVES * measure, "{place}: second {second:e}");
+    assert!(second <= SECOND * measure, "{place}: second {second:e}");
 }
 
 fn every_corner(mesh: &ControlMesh) -> impl Iterator<Item = (FaceId, u32)> + '_ {
@@ -59,7 +61,13 @@ fn affine_maps_carry_the_surface_along() {
         for number in cages::visible(&table) {
             for (u, v) in PLACES {
                 let at = cages::locate(&table, number, u, v);
-                let [a, b] = [&here, &there].map(|surface| surface.jet(at).jet);
+                let [mut a, mut b] = [&here, &there].map(|surface| surface.jet(at));
+                // There tangents are any that span the plane.
+                if a.flags.contains(Flags::AT_EXTRAORDINARY) {
+                    [a.jet, b.jet] = [a.jet, b.jet]
+                        .map(|jet| SurfaceJet { position: jet.position, ..SurfaceJet::default() });
+                }
+                let [a, b] = [a.jet, b.jet];
                 let wanted = SurfaceJet {
                     position: linear(a.position) + shift,
                     du: linear(a.du),
@@ -91,8 +99,12 @@ fn weights_sum_to_one() {
         let surface = LimitSurface::new(&table, &constant);
         for number in cages::visible(&table) {
             for (u, v) in PLACES {
-                let jet = surface.jet(cages::locate(&table, number, u, v)).jet;
+                let point = surface.jet(cages::locate(&table, number, u, v));
+                let jet = point.jet;
                 assert!(jet.position.distance(one) <= 1e-14, "{name} ({u}, {v}): {:?}", jet.position);
+                if point.flags.contains(Flags::AT_EXTRAORDINARY) {
+                    continue;
+                }
                 // Second derivatives are differences of points over the square of a tile, here 1/1024 or more.
                 let first = jet.du.length().max(jet.dv.length());
                 let second = jet.duu.length().max(jet.duv.length()).max(jet.dvv.length());

@@ -10,10 +10,11 @@ use serde_json::Value;
 
 /// Of the size of the cage.
 const POSITION: f64 = 1e-12;
-/// Of the largest derivative of the same order; the second one where a corner is nearer than [`NEAR`].
+/// Of the largest derivative of the same order; the second one where a corner is nearer than [`NEAR`], since the data
+/// were computed from absolute points, whose differences lose a digit for every digit they move together.
 const DERIVATIVES: f64 = 1e-10;
-const DERIVATIVES_NEAR: f64 = 1e-6;
-const NEAR: f64 = 1e-5;
+const DERIVATIVES_NEAR: f64 = 1e-8;
+const NEAR: f64 = 1e-4;
 const NORMAL: f64 = 1e-9;
 
 /// The largest difference of some vectors, of the longest of them.

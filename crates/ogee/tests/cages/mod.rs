@@ -303,6 +303,12 @@ pub fn all() -> Vec<(String, ControlMesh)> {
         let sharp = creased(cube(), &[[4, 5], [4, 6], [4, 0]], 10.0);
         sharp_at(sharp_at(sharp, &[7], 10.0), &[3], 1.5)
     });
+    // A crease goes on among hidden faces, which decide how it fades at the last visible vertex.
+    let right: Vec<u32> = (0..25).filter(|face| face % 5 > 1).collect();
+    let hidden = with_holes(grid(5, 5), &right);
+    let hidden = creased(creased(hidden, &[[14, 15]], 1.2), &[[15, 21], [15, 16]], 0.3);
+    add("crease among holes", hidden.clone());
+    add("Chaikin crease among holes", chaikin(hidden));
     // Holes.
     add("grid with holes", with_holes(grid(4, 4), &[0, 5, 6]));
     add("prism without lid", with_holes(prism(5), &[1]));
