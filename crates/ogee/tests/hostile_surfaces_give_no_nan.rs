@@ -1,10 +1,10 @@
 //! Whatever a cage looks like, evaluation gives numbers, and normals that are unit vectors or flagged.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use ogee::{
-    Boundary, ControlMesh, Corner, Crease, Creasing, Derivatives, FaceList, Flags, Level, LimitSurface,
-    Location, PatchTable, Scheme, Sharpness, Vec3, shapes,
-};
+mod cages;
+
+use cages::{scheme, tagged};
+use ogee::{ControlMesh, Derivatives, FaceList, Flags, Level, LimitSurface, Location, PatchTable, Vec3};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -20,16 +20,6 @@ fn points(count: usize) -> impl Strategy<Value = Vec<Vec3>> {
     })
 }
 
-fn scheme() -> impl Strategy<Value = Scheme> {
-    let boundary = prop_oneof![Just(Boundary::EdgeAndCorner), Just(Boundary::EdgeOnly), Just(Boundary::None)];
-    let creasing = prop_oneof![Just(Creasing::Uniform), Just(Creasing::Chaikin)];
-    (boundary, creasing).prop_map(|(boundary, creasing)| Scheme { boundary, creasing })
-}
-
-fn sharpness() -> impl Strategy<Value = f64> {
-    prop_oneof![Just(10.0), Just(1.0), Just(0.5), Just(2.5), Just(9.9), Just(1e-300)]
-}
-
 /// Faces thrown together: mostly refused.
 fn any_mesh() -> impl Strategy<Value = ControlMesh> {
     (points(9), vec(vec(0u32..9, 3..6), 1..6), scheme()).prop_map(|(points, faces, scheme)| {
@@ -37,64 +27,6 @@ fn any_mesh() -> impl Strategy<Value = ControlMesh> {
         faces.iter().for_each(|face| list.push(face));
         ControlMesh { scheme, ..ControlMesh::new(points, list) }
     })
-}
-
-/// A wheel: `n` triangles around a vertex, or a fan if it is left open.
-fn wheel(n: u32, open: bool) -> ControlMesh {
-    let mut list = FaceList::new();
-    for k in 0..n - u32::from(open) {
-        list.push(&[0, 1 + k, 1 + (k + 1) % n]);
-    }
-    ControlMesh::new(vec![Vec3::ZERO; n as usize + 1], list)
-}
-
-/// Sound connectivity with any points, any tags, some faces taken away.
-fn tagged_mesh() -> impl Strategy<Value = ControlMesh> {
-    let base = prop_oneof![
-        Just(shapes::cube()),
-        Just(shapes::grid(3, 3)),
-        (3u32..9).prop_map(|n| shapes::disk(n, 1)),
-        Just(shapes::disk(3, 2)),
-        Just(shapes::torus(3, 3)),
-        (3u32..9, any::<bool>()).prop_map(|(n, open)| wheel(n, open)),
-    ];
-    let tags = || vec((any::<prop::sample::Index>(), sharpness()), 0..7);
-    let gone = vec(any::<prop::sample::Index>(), 0..3);
-    (base, tags(), tags(), gone, scheme(), points(64), 0..3u8).prop_map(
-        |(mut mesh, creases, corners, gone, scheme, moved, kind)| {
-            mesh.scheme = scheme;
-            let gone: Vec<usize> = gone.iter().map(|face| face.index(mesh.faces.len())).collect();
-            match kind {
-                0 => mesh.holes = gone.iter().map(|&hole| hole as u32).collect(),
-                1 if gone.len() < mesh.faces.len() => {
-                    let kept = mesh.faces.iter().enumerate().filter(|(f, _)| !gone.contains(f));
-                    let mut faces = FaceList::new();
-                    kept.for_each(|(_, face)| faces.push(face));
-                    mesh.faces = faces;
-                }
-                _ => {}
-            }
-            let edges: Vec<[u32; 2]> = mesh
-                .faces
-                .iter()
-                .flat_map(|face| {
-                    (0..face.len()).map(|k| [face[k], face[(k + 1) % face.len()]]).collect::<Vec<_>>()
-                })
-                .collect();
-            for (which, sharpness) in creases {
-                let vertices = edges[which.index(edges.len())];
-                mesh.creases.push(Crease { vertices, sharpness: Sharpness::from_value(sharpness) });
-            }
-            for (which, sharpness) in corners {
-                let vertex = which.index(mesh.points.len()) as u32;
-                mesh.corners.push(Corner { vertex, sharpness: Sharpness::from_value(sharpness) });
-            }
-            for (point, moved) in mesh.points.iter_mut().zip(moved) {
-                *point = moved;
-            }
-            mesh
-        },
-    )
 }
 
 fn assert_sane(what: &str, mesh: &ControlMesh, normal: Vec3, flags: Flags) {
@@ -170,7 +102,7 @@ proptest! {
     }
 
     #[test]
-    fn any_tags(mesh in tagged_mesh()) {
+    fn any_tags(mesh in tagged(points(64))) {
         try_everything(&mesh);
     }
 }

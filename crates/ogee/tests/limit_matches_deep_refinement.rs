@@ -4,11 +4,12 @@
 
 mod cages;
 
-use cages::{at_corner, disk, faces_at, locate, spokes, visible};
+use cages::{at_corner, disk, faces_at, locate, spokes, tagged, visible};
 use ogee::{
     ControlMesh, Corner, Crease, FaceList, HalfedgeId, Level, LimitSurface, PatchTable, Refinement,
     Sharpness, Vec3, VertexId, limit_vertices, shapes,
 };
+use proptest::prelude::*;
 
 /// Of the size of the cage.
 const POSITION: f64 = 1e-12;
@@ -28,11 +29,17 @@ fn compare(name: &str, mesh: &ControlMesh, depth: u32, every: usize) -> f64 {
             let at = locate(&table, number, i as f64 / side as f64, j as f64 / side as f64);
             let wanted = limits[grid[(i, j)].index()].position;
             let gap = surface.eval(at).position.distance(wanted) / mesh.size();
-            assert!(gap <= POSITION, "{name}: {face:?} ({i}, {j}) of {side}: {gap:e}");
+            assert!(gap <= POSITION, "{name}: {face:?} ({i}, {j}) of {side}: {gap:e} {}", described(mesh));
             worst = worst.max(gap);
         }
     }
     worst
+}
+
+/// What a random cage was, if there is little of it.
+fn described(mesh: &ControlMesh) -> String {
+    let tags = (&mesh.faces, &mesh.creases, &mesh.corners, &mesh.holes, mesh.scheme);
+    if mesh.faces.len() < 40 { format!("{tags:?}") } else { String::new() }
 }
 
 #[test]
@@ -54,6 +61,18 @@ fn every_point_of_the_third_level_agrees() {
 #[test]
 fn high_valence_agrees() {
     println!("{:e}", compare("disk 200", &cages::shaken(shapes::disk(200, 1), 0.005), 2, 7));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 96, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Tags thrown on cages, so that creases meet, end, cross holes and boundaries in every way.
+    #[test]
+    fn any_tags_agree(mesh in tagged(Just(cages::cloud(64)))) {
+        if Level::new(&mesh).is_ok() {
+            compare("any tags", &mesh, 2, 1);
+        }
+    }
 }
 
 /// Two rings of faces around a vertex, those that touch it first, in the order of its ring and beginning with it.

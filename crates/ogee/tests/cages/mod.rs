@@ -3,9 +3,11 @@
 #![allow(dead_code, unreachable_pub, reason = "each claim uses a part of it")]
 
 use ogee::{
-    Boundary, ControlMesh, Corner, Crease, Creasing, FaceId, FaceList, Level, Location, PatchTable,
+    Boundary, ControlMesh, Corner, Crease, Creasing, FaceId, FaceList, Level, Location, PatchTable, Scheme,
     Sharpness, SurfaceJet, Vec3, VertexId, shapes,
 };
+use proptest::collection::vec;
+use proptest::prelude::*;
 
 /// The boundary of the unit cells of `filled`: a closed surface with valences 3 to 6.
 pub fn voxels(filled: &[[i32; 3]]) -> ControlMesh {
@@ -57,6 +59,12 @@ pub fn shaken(mut mesh: ControlMesh, by: f64) -> ControlMesh {
         *p += by * Vec3::new(next(), next(), next());
     }
     mesh
+}
+
+/// Points of no order at all, the same every time.
+pub fn cloud(count: usize) -> Vec<Vec3> {
+    let mut next = noise(11);
+    (0..count).map(|_| Vec3::new(next(), next(), next())).collect()
 }
 
 pub fn polygons(points: &[[f64; 3]], faces: &[&[u32]]) -> ControlMesh {
@@ -357,4 +365,76 @@ pub fn turned(jet: &SurfaceJet, corner: u32) -> SurfaceJet {
         2 => SurfaceJet { position, du: -du, dv: -dv, duu, duv, dvv },
         _ => SurfaceJet { position, du: -dv, dv: du, duu: dvv, duv: -duv, dvv: duu },
     }
+}
+
+pub fn scheme() -> impl Strategy<Value = Scheme> {
+    let boundary = prop_oneof![Just(Boundary::EdgeAndCorner), Just(Boundary::EdgeOnly), Just(Boundary::None)];
+    let creasing = prop_oneof![Just(Creasing::Uniform), Just(Creasing::Chaikin)];
+    (boundary, creasing).prop_map(|(boundary, creasing)| Scheme { boundary, creasing })
+}
+
+fn sharpness() -> impl Strategy<Value = f64> {
+    prop_oneof![Just(10.0), Just(1.0), Just(0.5), Just(2.5), Just(9.9), Just(1e-300)]
+}
+
+/// A wheel: `n` triangles around a vertex, or a fan if it is left open.
+pub fn wheel(n: u32, open: bool) -> ControlMesh {
+    let mut list = FaceList::new();
+    for k in 0..n - u32::from(open) {
+        list.push(&[0, 1 + k, 1 + (k + 1) % n]);
+    }
+    ControlMesh::new(vec![Vec3::ZERO; n as usize + 1], list)
+}
+
+/// Sound connectivity with the given points, any tags, some faces taken away or hidden.
+pub fn tagged(points: impl Strategy<Value = Vec<Vec3>>) -> impl Strategy<Value = ControlMesh> {
+    let base = prop_oneof![
+        Just(shapes::cube()),
+        Just(shapes::grid(3, 3)),
+        (3u32..9).prop_map(|n| shapes::disk(n, 1)),
+        Just(shapes::disk(3, 2)),
+        Just(shapes::torus(3, 3)),
+        Just(valence_two()),
+        Just(octahedron()),
+        (3u32..7).prop_map(prism),
+        (1u32..6).prop_map(fan),
+        (3u32..9, any::<bool>()).prop_map(|(n, open)| wheel(n, open)),
+    ];
+    let tags = || vec((any::<prop::sample::Index>(), sharpness()), 0..7);
+    let gone = vec(any::<prop::sample::Index>(), 0..3);
+    (base, tags(), tags(), gone, scheme(), points, 0..3u8).prop_map(
+        |(mut mesh, creases, corners, gone, scheme, moved, kind)| {
+            mesh.scheme = scheme;
+            let gone: Vec<usize> = gone.iter().map(|face| face.index(mesh.faces.len())).collect();
+            match kind {
+                0 => mesh.holes = gone.iter().map(|&hole| hole as u32).collect(),
+                1 if gone.len() < mesh.faces.len() => {
+                    let kept = mesh.faces.iter().enumerate().filter(|(f, _)| !gone.contains(f));
+                    let mut faces = FaceList::new();
+                    kept.for_each(|(_, face)| faces.push(face));
+                    mesh.faces = faces;
+                }
+                _ => {}
+            }
+            let edges: Vec<[u32; 2]> = mesh
+                .faces
+                .iter()
+                .flat_map(|face| {
+                    (0..face.len()).map(|k| [face[k], face[(k + 1) % face.len()]]).collect::<Vec<_>>()
+                })
+                .collect();
+            for (which, sharpness) in creases {
+                let vertices = edges[which.index(edges.len())];
+                mesh.creases.push(Crease { vertices, sharpness: Sharpness::from_value(sharpness) });
+            }
+            for (which, sharpness) in corners {
+                let vertex = which.index(mesh.points.len()) as u32;
+                mesh.corners.push(Corner { vertex, sharpness: Sharpness::from_value(sharpness) });
+            }
+            for (point, moved) in mesh.points.iter_mut().zip(moved) {
+                *point = moved;
+            }
+            mesh
+        },
+    )
 }
