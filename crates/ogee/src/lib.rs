@@ -63,6 +63,7 @@
 //! | `patch` | pieces of a level, taken out to be worked on alone |
 //! | `limit` | limit masks, [`limit_vertices`] |
 //! | [`nurbs`] | knots, curves, surfaces of any degree, shells |
+//! | [`stam`] | the limit surface a second time, by eigenvectors, at smooth interior vertices |
 //! | [`pccm`] | one smooth patch per quad, and packing them into few |
 //! | [`convert`] | the whole journey from a cage to a part, with its figures |
 //!
@@ -91,6 +92,7 @@ mod patch;
 pub mod pccm;
 mod refine;
 mod rules;
+pub mod stam;
 mod stencil;
 
 pub use limit::{
@@ -112,6 +114,9 @@ pub use stencil::{Row, StencilTable};
 mod doctests {
     #[doc = include_str!("../../../docs/methods/catmull_clark.md")]
     struct CatmullClark;
+
+    #[doc = include_str!("../../../docs/methods/exact_evaluation.md")]
+    struct ExactEvaluation;
 
     #[doc = include_str!("../../../docs/methods/pccm.md")]
     struct Pccm;
