@@ -54,20 +54,21 @@ impl CageArguments {
     /// Reads the cage and applies the rules that were asked for.
     pub(crate) fn read(&self) -> Result<Cage, Failure> {
         let start = Instant::now();
-        let is_stdin = self.cage == Path::new("-");
-        if is_stdin && self.input_format.is_none() {
+        if self.is_stdin() && self.input_format.is_none() {
             return Err(Failure::usage("reading from stdin wants --input-format"));
         }
         let format = CageFormat::of(self.input_format, &self.cage).map_err(Failure::usage)?;
         let (name, bytes) = read_bytes(&self.cage)?;
-        let mut file = read_cage(&bytes, format).map_err(|error| {
-            let faults = error.faults.iter().map(|fault| Finding::of_fault(fault, &name));
-            Failure::refused(faults.collect(), error.unlisted)
-        })?;
+        let mut file = read_cage(&bytes, format).map_err(|error| Failure::of_reading(&error, &name))?;
         let scheme = &mut file.mesh.scheme;
         scheme.boundary = self.boundary.unwrap_or(scheme.boundary);
         scheme.creasing = self.creasing.unwrap_or(scheme.creasing);
         Ok(Cage { name, file, seconds: start.elapsed().as_secs_f64() })
+    }
+
+    /// True if the cage comes from stdin.
+    pub(crate) fn is_stdin(&self) -> bool {
+        self.cage == Path::new("-")
     }
 
     /// The name of the file without folders and extension.

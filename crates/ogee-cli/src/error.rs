@@ -4,7 +4,7 @@ use std::io;
 use std::path::Path;
 
 use ogee::{Defect, Note, Place};
-use ogee_formats::{Fault, Warning};
+use ogee_formats::{Fault, ReadError, Warning};
 use serde::Serialize;
 use serde::ser::SerializeMap;
 
@@ -149,6 +149,12 @@ impl Failure {
         let unlisted = unlisted + findings.len() - kept;
         findings.truncate(kept);
         Failure { exit: Exit::Input, findings, unlisted, silent: false }
+    }
+
+    /// A reader refused the file.
+    pub(crate) fn of_reading(error: &ReadError, file: &str) -> Failure {
+        let faults = error.faults.iter().map(|fault| Finding::of_fault(fault, file));
+        Failure::refused(faults.collect(), error.unlisted)
     }
 
     /// What is said in one line.

@@ -5,7 +5,9 @@
 //! | `arguments` | what can be typed |
 //! | `names` | values by name, and what this build does not have |
 //! | `commands/*` | one file per command |
+//! | `addresses` | where to evaluate: files of points, grids |
 //! | `cage` | opening and reading a cage |
+//! | `evaluation` | samples in a stream |
 //! | `output` | whole files or none |
 //! | `error` | failures, with their place and exit code |
 //! | `report` | figures as text and as JSON |
@@ -13,10 +15,12 @@
 //! | `timestamp` | the time that is written into files |
 //! | `system` | what the machine has and what was used of it |
 
+mod addresses;
 mod arguments;
 mod cage;
 mod commands;
 mod error;
+mod evaluation;
 mod names;
 mod output;
 mod progress;

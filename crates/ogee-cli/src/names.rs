@@ -4,7 +4,7 @@ use clap::builder::{PossibleValue, TypedValueParser};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Command, Error};
 use ogee::convert::{Method, UpAxis};
-use ogee::{Boundary, Creasing};
+use ogee::{Boundary, Creasing, Derivatives};
 use ogee_formats::step::{Schema, Unit};
 
 /// A parser of values that go by one or more names.
@@ -73,6 +73,11 @@ pub(crate) const BOUNDARIES: Names<Boundary> = Names {
 pub(crate) const CREASINGS: Names<Creasing> =
     Names { values: &[("uniform", Creasing::Uniform), ("chaikin", Creasing::Chaikin)], elsewhere: &[] };
 
+pub(crate) const DERIVATIVES: Names<Derivatives> = Names {
+    values: &[("0", Derivatives::None), ("1", Derivatives::First), ("2", Derivatives::Second)],
+    elsewhere: &[],
+};
+
 /// A format, told by a name that is also the extension of its files.
 pub(crate) trait Format: Copy + 'static {
     /// All names; the first of a format is the usual one.
@@ -111,8 +116,8 @@ pub(crate) fn formats<F: Format + Send + Sync>() -> Names<F> {
 }
 
 /// Commands and options that the program has but not this build.
-const ELSEWHERE: [&str; 10] =
-    ["eval", "network", "lens", "render", "lines", "inspect", "batch", "view", "--lens", "--iges"];
+const ELSEWHERE: [&str; 9] =
+    ["network", "lens", "render", "lines", "inspect", "batch", "view", "--lens", "--iges"];
 
 /// What to say where an unknown word is one of another build.
 pub(crate) fn not_in_this_build(error: &Error) -> Option<String> {

@@ -1,7 +1,7 @@
 //! Whole files or none: what is written appears under its name only when it is complete.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, Write};
+use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -94,6 +94,56 @@ impl Destination {
         };
         result.map_err(|error| Failure::unwritten(path, &error))
     }
+
+    /// Writes all of it or nothing, where the content may be refused half-way. What cannot be taken back, on stdout, in
+    /// a pipe or on a device, waits in a temporary file until all of it is there. Returns the number of bytes.
+    pub(crate) fn write_unless_refused(
+        &self,
+        content: impl FnOnce(&mut Counter) -> Result<(), Stopped>,
+    ) -> Result<u64, Failure> {
+        let is_special = |path: &Path| fs::metadata(path).is_ok_and(|found| !found.is_file());
+        let result = match self {
+            Destination::File(path) if !is_special(path) => to_file(path, content),
+            _ => spooled(content).and_then(|mut spool| {
+                let copied = self.write(|out| io::copy(&mut spool, out).map(drop));
+                copied.map_err(Stopped::Refused)
+            }),
+        };
+        result.map_err(|stopped| match stopped {
+            Stopped::Refused(failure) => failure,
+            Stopped::Unwritten(error) => Failure::unwritten(Path::new(&self.name()), &error),
+        })
+    }
+}
+
+/// Why content ended before it was complete.
+pub(crate) enum Stopped {
+    /// What it is made from is no good.
+    Refused(Failure),
+    /// It cannot be written.
+    Unwritten(io::Error),
+}
+
+impl From<Failure> for Stopped {
+    fn from(failure: Failure) -> Stopped {
+        Stopped::Refused(failure)
+    }
+}
+
+impl From<io::Error> for Stopped {
+    fn from(error: io::Error) -> Stopped {
+        Stopped::Unwritten(error)
+    }
+}
+
+/// The content in a file without a name, which nothing has to remove.
+fn spooled(content: impl FnOnce(&mut Counter) -> Result<(), Stopped>) -> Result<File, Stopped> {
+    let mut spool = tempfile::tempfile()?;
+    let mut out = Counter { inner: Box::new(spool.try_clone()?), bytes: 0 };
+    content(&mut out)?;
+    out.finish()?;
+    spool.rewind()?;
+    Ok(spool)
 }
 
 /// Counts what goes through it.
@@ -128,14 +178,17 @@ fn folder(path: &Path) -> &Path {
     }
 }
 
-fn to_file(path: &Path, content: impl FnOnce(&mut Counter) -> io::Result<()>) -> io::Result<u64> {
+fn to_file<E: From<io::Error>>(
+    path: &Path,
+    content: impl FnOnce(&mut Counter) -> Result<(), E>,
+) -> Result<u64, E> {
     let existing = fs::metadata(path).ok();
     if existing.as_ref().is_some_and(|found| !found.is_file()) {
         // A rename would replace the device itself.
         let file = OpenOptions::new().write(true).open(path)?;
         let mut out = Counter { inner: Box::new(file), bytes: 0 };
         content(&mut out)?;
-        return out.finish();
+        return Ok(out.finish()?);
     }
     // A link stays a link: what it points to is replaced.
     let target = if existing.is_some() { fs::canonicalize(path)? } else { path.to_owned() };

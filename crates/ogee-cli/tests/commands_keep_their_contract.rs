@@ -282,7 +282,7 @@ fn what_this_build_does_not_have_is_said() {
         "convert cube.usda -o a.step",
         "refine cube.obj -l 1 -o a.3mf",
         "refine cube.obj -l 1 -o a.usda",
-        "eval cube.obj",
+        "eval cube.obj --uniform 2 -o a.csv --lens c1",
         "network cube.obj",
         "lens cube.obj",
         "render cube.obj",

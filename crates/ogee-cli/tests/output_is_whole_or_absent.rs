@@ -110,7 +110,13 @@ fn a_closed_pipe_is_quiet() {
     use std::io::Read;
     use std::process::{Command, Stdio};
     let folder = Folder::with_cube();
-    for what in ["refine cube.obj -l 6 -o - --output-format obj", "completions bash", "man"] {
+    let commands = [
+        "refine cube.obj -l 6 -o - --output-format obj",
+        "eval cube.obj --uniform 100 -o - --format csv",
+        "completions bash",
+        "man",
+    ];
+    for what in commands {
         let mut child = Command::new(env!("CARGO_BIN_EXE_ogee"))
             .args(what.split(' '))
             .current_dir(folder.path(""))

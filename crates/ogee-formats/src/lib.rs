@@ -27,6 +27,7 @@
 //! | parts: STEP | checked with [`step::check`] | [`step::write`] |
 //! | parts: patches in JSON | [`patches::read`] | [`patches::write`] |
 //! | parts: BezierView | | [`bv::write`] |
+//! | samples: JSON lines, CSV | [`samples::AddressReader`] | [`samples::write_sample`] |
 //!
 //! What each of them accepts and writes is described in `docs/formats.md` of the repository.
 
@@ -43,6 +44,7 @@ pub mod obj;
 pub mod off;
 pub mod patches;
 pub mod ply;
+pub mod samples;
 pub mod step;
 mod stl;
 mod text;

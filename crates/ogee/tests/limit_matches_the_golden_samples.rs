@@ -16,6 +16,10 @@ const DERIVATIVES: f64 = 1e-10;
 const DERIVATIVES_NEAR: f64 = 1e-8;
 const NEAR: f64 = 1e-4;
 const NORMAL: f64 = 1e-9;
+/// Of the larger principal curvature, or of one over the size of the cage. Near a corner second derivatives are mostly
+/// along the surface, and little is left of their digits across it.
+const CURVATURE: f64 = 1e-8;
+const CURVATURE_NEAR: f64 = 1e-3;
 
 /// The largest difference of some vectors, of the longest of them.
 fn relative<const N: usize>(ours: [Vec3; N], theirs: [&Value; N]) -> f64 {
@@ -32,8 +36,8 @@ fn samples_match() {
         let level = Level::new(&mesh).unwrap();
         let table = PatchTable::new(&level);
         let surface = LimitSurface::new(&table, &mesh.points);
-        // Positions, derivatives, derivatives near a corner, normals.
-        let mut worst = [0.0f64; 4];
+        // Positions, derivatives and those near a corner, normals, curvatures and those near a corner.
+        let mut worst = [0.0f64; 6];
         for sample in list(&document["samples"]) {
             let (u, v) = (number(&sample["u"]), number(&sample["v"]));
             let corner = sample["subface"].as_u64().map(|corner| corner as u32);
@@ -55,12 +59,19 @@ fn samples_match() {
             assert!(gap <= NORMAL, "{place}: normal {gap:e}");
             worst[3] = worst[3].max(gap);
             assert_eq!(got.flags, Flags::NONE, "{place}");
+            let theirs = ["k1", "k2", "mean", "gauss"].map(|name| number(&sample[name]));
+            let curvature = got.jet.curvature().unwrap();
+            let largest = theirs[0].abs().max(theirs[1].abs()).max(1.0 / mesh.size());
+            let ours = [curvature.k1, curvature.k2, curvature.mean, curvature.gauss / largest];
+            let theirs = [theirs[0], theirs[1], theirs[2], theirs[3] / largest];
+            let gap = ours.iter().zip(theirs).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / largest;
+            let (which, tolerance) = if near { (5, CURVATURE_NEAR) } else { (4, CURVATURE) };
+            assert!(gap <= tolerance, "{place}: curvature {gap:e}");
+            worst[which] = worst[which].max(gap);
             count += 1;
         }
-        let [position, derivatives, near, normal] = worst;
-        println!(
-            "{name}: {position:.1e}, derivatives {derivatives:.1e}, near {near:.1e}, normals {normal:.1e}"
-        );
+        let worst = worst.map(|gap| format!("{gap:.1e}"));
+        println!("{name}: position, derivatives, near, normals, curvature, near: {}", worst.join(" "));
     }
     assert!(count > 250, "{count}");
 }

@@ -3,6 +3,7 @@
 pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod convert;
+pub(crate) mod eval;
 pub(crate) mod info;
 mod man;
 pub(crate) mod refine;
@@ -18,6 +19,7 @@ pub(crate) fn run(command: &Command, console: &Console) -> Result<ExitCode, Fail
     match command {
         Command::Info(info) => info.run(console),
         Command::Refine(refine) => refine.run(console),
+        Command::Eval(eval) => eval.run(console),
         Command::Convert(convert) => convert.run(console),
         Command::Check(check) => check.run(console),
         Command::Completions(completions) => completions.run(console),

@@ -1,6 +1,6 @@
 //! Many points: samples sorted by piece, four at a time.
 
-use super::bicubic::{self, Jet, Lanes, Net};
+use super::bicubic::{self, Jet, Lanes, Net, lanes};
 use super::walk::{MAX_STEPS, Walk, narrow, subtract, wide};
 use super::{Derivatives, Flags, Samples};
 use crate::math::{Vec3, par, simd};
@@ -151,13 +151,16 @@ struct Group {
 pub(super) struct Worker<'a> {
     batch: Batch<'a>,
     walk: Walk,
+    group: Group,
     items: Vec<Item>,
     keyed: Vec<Keyed>,
 }
 
 impl<'a> Worker<'a> {
     pub(super) fn new(batch: Batch<'a>) -> Worker<'a> {
-        Worker { batch, walk: Walk::default(), items: Vec::new(), keyed: Vec::new() }
+        let group =
+            Group { net: [[0.0; 4]; 16], base: [0.0; 4], corner: 0, scales: [1.0; 3], flags: Flags::NONE };
+        Worker { batch, walk: Walk::default(), group, items: Vec::new(), keyed: Vec::new() }
     }
 
     /// All samples of a chunk in the order given.
@@ -178,83 +181,135 @@ impl<'a> Worker<'a> {
         }
     }
 
-    /// The samples of one parametric face.
+    /// The samples of one parametric face, which are in `items`.
     fn run(&mut self, root: u32, out: &mut Out<'_>) {
-        if let Some(net) = self.batch.table.root_leaf(root) {
-            let group = self.leaf(net, 0);
-            let items = std::mem::take(&mut self.items);
-            self.evaluate(&group, &items, out);
-            self.items = items;
+        let table = self.batch.table;
+        let mut items = std::mem::take(&mut self.items);
+        if let Some(net) = table.root_leaf(root) {
+            self.leaf(net, 0);
+            self.evaluate(&items, out);
+        } else {
+            match table.root_node(root).piece() {
+                Piece::Tail(tail) => self.chain(tail, &mut items, out),
+                _ => self.tree(root, &mut items, out),
+            }
+        }
+        self.items = items;
+    }
+
+    /// Samples of a face that is one chain: put into buckets by step and tile, as long as those are few.
+    fn chain(&mut self, tail: u32, items: &mut [Item], out: &mut Out<'_>) {
+        const BUCKETS: usize = 256;
+        let corner = self.batch.table.tail(tail).corner;
+        let mut ends = [0u32; BUCKETS + 1];
+        self.keyed.clear();
+        let mut largest = 0;
+        for &Item { x, y, index } in items.iter() {
+            let (x, y) = to_corner(corner, x, y);
+            let (step, tile, x, y) = place(x, y);
+            let key = step << 2 | tile;
+            largest = largest.max(key as usize);
+            ends[(key as usize).min(BUCKETS - 1) + 1] += 1;
+            self.keyed.push(Keyed { key, item: Item { x, y, index } });
+        }
+        if largest >= BUCKETS {
+            self.keyed.sort_unstable_by_key(|keyed| (keyed.key, keyed.item.index));
+            let keyed = std::mem::take(&mut self.keyed);
+            for same in keyed.chunk_by(|a, b| a.key == b.key) {
+                for (item, keyed) in items.iter_mut().zip(same) {
+                    *item = keyed.item;
+                }
+                self.piece(Patch::of_step(tail, same[0].key, 0), &items[..same.len()], out);
+            }
+            self.keyed = keyed;
             return;
         }
-        let node = self.batch.table.root_node(root);
+        for key in 0..=largest {
+            ends[key + 1] += ends[key];
+        }
+        let mut next = ends;
+        for keyed in &self.keyed {
+            let slot = &mut next[keyed.key as usize];
+            items[*slot as usize] = keyed.item;
+            *slot += 1;
+        }
+        for key in 0..=largest {
+            let (start, end) = (ends[key] as usize, ends[key + 1] as usize);
+            if start < end {
+                self.piece(Patch::of_step(tail, key as u64, 0), &items[start..end], out);
+            }
+        }
+    }
+
+    /// Samples of a face that is split.
+    fn tree(&mut self, root: u32, items: &mut [Item], out: &mut Out<'_>) {
+        let table = self.batch.table;
         self.keyed.clear();
-        for &Item { x, y, index } in &self.items {
-            let (piece, u, v, depth) = self.batch.table.descend(node, x, y);
-            self.keyed.push(key(self.batch.table, piece, (u, v), depth, index));
+        for &Item { x, y, index } in items.iter() {
+            let (piece, u, v, depth) = table.descend(table.root_node(root), x, y);
+            self.keyed.push(key(table, piece, (u, v), depth, index));
         }
-        if self.keyed.len() > 1 {
-            self.keyed.sort_unstable_by_key(|keyed| (keyed.key, keyed.item.index));
-        }
+        self.keyed.sort_unstable_by_key(|keyed| (keyed.key, keyed.item.index));
         let keyed = std::mem::take(&mut self.keyed);
         for same in keyed.chunk_by(|a, b| a.key == b.key) {
-            self.items.clear();
-            self.items.extend(same.iter().map(|keyed| keyed.item));
-            let items = std::mem::take(&mut self.items);
-            match Patch::of(same[0].key) {
-                Patch::Leaf { index, depth } => {
-                    let group = self.leaf(self.batch.table.leaf(index), depth);
-                    self.evaluate(&group, &items, out);
-                }
-                Patch::Tile { tail, step, beyond, tile, depth } => {
-                    let group = self.tile(tail, step, beyond, tile, depth);
-                    self.evaluate(&group, &items, out);
-                }
-                Patch::Vertex { tail } => self.vertex(tail, &items, out),
+            for (item, keyed) in items.iter_mut().zip(same) {
+                *item = keyed.item;
             }
-            self.items = items;
+            self.piece(Patch::of(same[0].key), &items[..same.len()], out);
         }
         self.keyed = keyed;
     }
 
-    fn leaf(&self, sources: &[u32; 16], depth: i32) -> Group {
-        let points = sources.map(|source| wide(self.batch.points[source as usize]));
-        // Relative to a point of its own, so that parts far from the origin lose nothing.
-        let base = points[5];
-        let scale = f64::from(1u32 << depth);
-        Group {
-            net: points.map(|point| subtract(point, base)),
-            base,
-            corner: 0,
-            scales: [1.0, scale, scale * scale],
-            flags: Flags::NONE,
+    /// Samples of one bicubic patch, or at one vertex.
+    fn piece(&mut self, patch: Patch, items: &[Item], out: &mut Out<'_>) {
+        match patch {
+            Patch::Leaf { index, depth } => self.leaf(self.batch.table.leaf(index), depth),
+            Patch::Tile { tail, step, beyond, tile, depth } => self.tile(tail, step, beyond, tile, depth),
+            Patch::Vertex { tail } => return self.vertex(tail, items, out),
         }
+        self.evaluate(items, out);
     }
 
-    fn tile(&mut self, tail: u32, step: i32, beyond: i32, tile: usize, depth: i32) -> Group {
+    fn leaf(&mut self, sources: &[u32; 16], depth: i32) {
+        // Relative to a point of its own, so that parts far from the origin lose nothing.
+        let base = wide(self.batch.points[sources[5] as usize]);
+        for (point, &source) in self.group.net.iter_mut().zip(sources) {
+            *point = subtract(wide(self.batch.points[source as usize]), base);
+        }
+        let scale = power_of_two(depth);
+        self.group.base = base;
+        self.group.corner = 0;
+        self.group.scales = [1.0, scale, scale * scale];
+        self.group.flags = Flags::NONE;
+    }
+
+    fn tile(&mut self, tail: u32, step: i32, beyond: i32, tile: usize, depth: i32) {
         let Batch { table, points, .. } = self.batch;
         self.walk.go(table, points, tail, step);
         let basis = table.basis(table.tail(tail));
-        let scale = 2f64.powi(step + depth);
-        let mut scales = [1.0, scale, scale * scale];
-        let mut flags = Flags::NONE;
+        let scale = power_of_two(step + depth);
+        let group = &mut self.group;
+        group.scales = [1.0, scale, scale * scale];
+        group.flags = Flags::NONE;
         if beyond > 0 {
             // Products of powers would leave the range of numbers where the power of the product does not.
             let power = |factor: f64| (factor * basis.eigenvalue).powi(beyond);
             // An infinite scale would make NaN of a zero.
-            scales = [power(1.0), scale * power(2.0), (scale * scale * power(4.0)).min(f64::MAX)];
-            flags = Flags::BEYOND_NMAX;
+            group.scales = [power(1.0), scale * power(2.0), (scale * scale * power(4.0)).min(f64::MAX)];
+            group.flags = Flags::BEYOND_NMAX;
         }
-        let corner = table.tail(tail).corner;
-        Group { net: self.walk.tile(basis, tile), base: self.walk.base(), corner, scales, flags }
+        group.corner = table.tail(tail).corner;
+        group.base = self.walk.base();
+        self.walk.tile(basis, tile, &mut group.net);
     }
 
     #[inline]
-    fn evaluate(&self, group: &Group, items: &[Item], out: &mut Out<'_>) {
+    fn evaluate(&self, items: &[Item], out: &mut Out<'_>) {
+        let group = &self.group;
         match self.batch.what {
-            Derivatives::None => simd::dispatch(Evaluate::<0> { group, items, out }),
-            Derivatives::First => simd::dispatch(Evaluate::<1> { group, items, out }),
-            Derivatives::Second => simd::dispatch(Evaluate::<2> { group, items, out }),
+            Derivatives::None => evaluate::<0>(group, items, out),
+            Derivatives::First => evaluate::<1>(group, items, out),
+            Derivatives::Second => evaluate::<2>(group, items, out),
         }
     }
 
@@ -270,7 +325,8 @@ impl<'a> Worker<'a> {
         if what > Derivatives::None {
             tangents = masks.unwrap_or_else(|| {
                 self.walk.go(table, points, tail, MAX_STEPS);
-                let jet = bicubic::one::<1>(&self.walk.tile(basis, 1), 0.0, 0.0);
+                self.walk.tile(basis, 1, &mut self.group.net);
+                let jet = bicubic::one::<1>(&self.group.net, 0.0, 0.0);
                 [jet[1], jet[2]].map(|tangent| narrow(tangent).normalized().unwrap_or(Vec3::ZERO))
             });
             normal = unit_normal(tangents[0], tangents[1]);
@@ -346,16 +402,22 @@ fn key(table: &PatchTable, piece: Piece, (u, v): (f64, f64), depth: i32, index: 
 
 impl Patch {
     fn of(key: u64) -> Patch {
-        let (head, step, tile) = (key >> 14, (key >> 2 & 0xfff) as i32, (key & 3) as usize);
+        let head = key >> 14;
         let (depth, piece) = ((head & 0x1f) as i32, (head >> 5 & 0x3fff_ffff) as u32);
         if head >> 35 == 0 {
             return Patch::Leaf { index: piece, depth };
         }
+        Patch::of_step(piece, key & 0x3fff, depth)
+    }
+
+    /// From step and tile alone.
+    fn of_step(tail: u32, key: u64, depth: i32) -> Patch {
+        let (step, tile) = ((key >> 2) as i32, (key & 3) as usize);
         if step == 0 {
-            return Patch::Vertex { tail: piece };
+            return Patch::Vertex { tail };
         }
         let beyond = (step - MAX_STEPS).max(0);
-        Patch::Tile { tail: piece, step: step - beyond, beyond, tile, depth }
+        Patch::Tile { tail, step: step - beyond, beyond, tile, depth }
     }
 }
 
@@ -374,10 +436,8 @@ fn place(x: f64, y: f64) -> (u64, u64, f64, f64) {
     }
     let exponent = (x.max(y).to_bits() >> 52) as i32;
     let doublings = (1023 - exponent).max(1);
-    // A power of two of 1023 and less is a number, one of 1024 is not.
-    let half = doublings / 2;
-    let (first, second) = (2f64.powi(half), 2f64.powi(doublings - half));
-    (x, y) = (x * first * second, y * first * second);
+    let scale = power_of_two(doublings);
+    (x, y) = (x * scale, y * scale);
     let tile = match (x >= 1.0, y >= 1.0) {
         (true, false) => 0,
         (true, true) => 1,
@@ -385,6 +445,44 @@ fn place(x: f64, y: f64) -> (u64, u64, f64, f64) {
     };
     let inside = |t: f64| if t >= 1.0 { t - 1.0 } else { t };
     ((step + doublings) as u64, tile, inside(x), inside(y))
+}
+
+/// `2^e`, for exponents of numbers.
+#[inline]
+fn power_of_two(e: i32) -> f64 {
+    f64::from_bits(((1023 + e) as u64) << 52)
+}
+
+/// All samples of one patch.
+#[inline]
+fn evaluate<const ORDER: usize>(group: &Group, items: &[Item], out: &mut Out<'_>) {
+    let &[item] = items else {
+        return simd::dispatch(Evaluate::<ORDER> { group, items, out });
+    };
+    let mut jet = [[0.0; 4]; 6];
+    simd::dispatch(One::<ORDER> { net: &group.net, item, jet: &mut jet });
+    let mut parts = [[[0.0]; 3]; 6];
+    for (part, wide) in parts.iter_mut().zip(&jet) {
+        *part = [[wide[0]], [wide[1]], [wide[2]]];
+    }
+    write::<ORDER, 1>(group, items, parts, out);
+}
+
+/// One sample, for [`simd::dispatch`]. All four lanes go to memory: a compiler that knows the fourth to be idle packs the
+/// other three in ways that cost more.
+struct One<'a, const ORDER: usize> {
+    net: &'a Net,
+    item: Item,
+    jet: &'a mut Jet<Wide>,
+}
+
+impl<const ORDER: usize> simd::Kernel for One<'_, ORDER> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        *self.jet = bicubic::one::<ORDER>(self.net, self.item.x, self.item.y);
+    }
 }
 
 /// All samples of one patch, for [`simd::dispatch`].
@@ -401,15 +499,9 @@ impl<const ORDER: usize> simd::Kernel for Evaluate<'_, '_, ORDER> {
     fn run(self) {
         let Evaluate { group, items, out } = self;
         for items in items.chunks(LANES) {
-            if let &[item] = items {
-                let jet = bicubic::one::<ORDER>(&group.net, item.x, item.y);
-                let jet = jet.map(|part| [[part[0]], [part[1]], [part[2]]]);
-                write::<ORDER, 1>(group, items, jet, out);
-                continue;
-            }
             let at = |l: usize| items[l.min(items.len() - 1)];
-            let x: Lanes<LANES> = std::array::from_fn(|l| at(l).x);
-            let y: Lanes<LANES> = std::array::from_fn(|l| at(l).y);
+            let x: Lanes<LANES> = lanes(|l| at(l).x);
+            let y: Lanes<LANES> = lanes(|l| at(l).y);
             let jet = bicubic::many::<ORDER, LANES>(&group.net, x, y);
             write::<ORDER, LANES>(group, items, jet, out);
         }
@@ -482,19 +574,21 @@ struct Normals<const L: usize> {
 
 #[inline(always)]
 fn normals<const L: usize>(a: &[Lanes<L>; 3], b: &[Lanes<L>; 3]) -> Normals<L> {
-    let product =
-        |i: usize, j: usize| -> Lanes<L> { std::array::from_fn(|l| a[i][l] * b[j][l] - a[j][l] * b[i][l]) };
+    let product = |i: usize, j: usize| -> Lanes<L> { lanes(|l| a[i][l] * b[j][l] - a[j][l] * b[i][l]) };
     let cross = [product(1, 2), product(2, 0), product(0, 1)];
     let square = |v: &[Lanes<L>; 3]| -> Lanes<L> {
-        std::array::from_fn(|l| v[0][l] * v[0][l] + v[1][l] * v[1][l] + v[2][l] * v[2][l])
+        lanes(|l| v[0][l] * v[0][l] + v[1][l] * v[1][l] + v[2][l] * v[2][l])
     };
     let (length, first, second) = (square(&cross), square(a), square(b));
     // Squares of products of derivatives: within these no step has over- or underflown.
     const RANGE: std::ops::Range<f64> = 1e-200..1e200;
-    let sure = std::array::from_fn(|l| {
-        length[l] > PARALLEL * PARALLEL * first[l] * second[l] && RANGE.contains(&length[l])
-    });
-    let vectors = std::array::from_fn(|c| std::array::from_fn(|l| cross[c][l] / length[l].sqrt()));
+    let mut sure = [false; L];
+    for (l, sure) in sure.iter_mut().enumerate() {
+        *sure = length[l] > PARALLEL * PARALLEL * first[l] * second[l] && RANGE.contains(&length[l]);
+    }
+    let root: Lanes<L> = lanes(|l| 1.0 / length[l].sqrt());
+    let scaled = |c: usize| -> Lanes<L> { lanes(|l| cross[c][l] * root[l]) };
+    let vectors = [scaled(0), scaled(1), scaled(2)];
     Normals { vectors, sure }
 }
 

@@ -11,9 +11,14 @@ pub(super) type Net = [Wide; 16];
 /// One number for each sample.
 pub(super) type Lanes<const L: usize> = [f64; L];
 
+/// `std::array::from_fn` is not always inlined, which here would cost more than the arithmetic.
 #[inline(always)]
-fn lanes<const L: usize>(f: impl Fn(usize) -> f64) -> Lanes<L> {
-    std::array::from_fn(f)
+pub(super) fn lanes<const L: usize>(f: impl Fn(usize) -> f64) -> Lanes<L> {
+    let mut out = [0.0; L];
+    for (l, out) in out.iter_mut().enumerate() {
+        *out = f(l);
+    }
+    out
 }
 
 /// The four cubic B-splines over a cell at `t` in `[0, 1]`.
@@ -71,14 +76,23 @@ pub(super) fn one<const ORDER: usize>(net: &Net, x: f64, y: f64) -> Jet<Wide> {
         })
     };
     let mut jet = [[0.0; 4]; 6];
-    let rows: [Wide; 4] = std::array::from_fn(|j| along(&bx, j));
+    let mut rows = [[0.0; 4]; 4];
+    for (j, row) in rows.iter_mut().enumerate() {
+        *row = along(&bx, j);
+    }
     jet[0] = across(&by, &rows);
     if ORDER > 0 {
-        let slope_rows: [Wide; 4] = std::array::from_fn(|j| along(&dx, j));
+        let mut slope_rows = [[0.0; 4]; 4];
+        for (j, row) in slope_rows.iter_mut().enumerate() {
+            *row = along(&dx, j);
+        }
         jet[1] = across(&by, &slope_rows);
         jet[2] = across(&dy, &rows);
         if ORDER > 1 {
-            let bend_rows: [Wide; 4] = std::array::from_fn(|j| along(&ddx, j));
+            let mut bend_rows = [[0.0; 4]; 4];
+            for (j, row) in bend_rows.iter_mut().enumerate() {
+                *row = along(&ddx, j);
+            }
             jet[3] = across(&by, &bend_rows);
             jet[4] = across(&dy, &slope_rows);
             jet[5] = across(&ddy, &rows);
@@ -111,14 +125,23 @@ pub(super) fn many<const ORDER: usize, const L: usize>(
                     + basis[3][l] * rows[3][l]
             })
         };
-        let rows: [Lanes<L>; 4] = std::array::from_fn(|j| along(&bx, j));
+        let mut rows = [[0.0; L]; 4];
+        for (j, row) in rows.iter_mut().enumerate() {
+            *row = along(&bx, j);
+        }
         jet[0][c] = across(&by, &rows);
         if ORDER > 0 {
-            let slope_rows: [Lanes<L>; 4] = std::array::from_fn(|j| along(&dx, j));
+            let mut slope_rows = [[0.0; L]; 4];
+            for (j, row) in slope_rows.iter_mut().enumerate() {
+                *row = along(&dx, j);
+            }
             jet[1][c] = across(&by, &slope_rows);
             jet[2][c] = across(&dy, &rows);
             if ORDER > 1 {
-                let bend_rows: [Lanes<L>; 4] = std::array::from_fn(|j| along(&ddx, j));
+                let mut bend_rows = [[0.0; L]; 4];
+                for (j, row) in bend_rows.iter_mut().enumerate() {
+                    *row = along(&ddx, j);
+                }
                 jet[3][c] = across(&by, &bend_rows);
                 jet[4][c] = across(&dy, &slope_rows);
                 jet[5][c] = across(&ddy, &rows);

@@ -7,9 +7,9 @@
 use crate::math::Vec3;
 use crate::patch::{ChainBasis, PatchTable, Tail, Wide};
 
-/// Steps that are taken. Below them the surface is its own limit shape, scaled: 2^-64 is less than the rounding of
-/// parameters around 1.
-pub(super) const MAX_STEPS: i32 = 64;
+/// Steps that are taken. Below them the surface is taken for its own limit shape, scaled: parameters of 1e-120 and less.
+/// Further down the squares of what is left of a ring of valence 3 would be no numbers any more.
+pub(super) const MAX_STEPS: i32 = 400;
 
 /// From this step on the limit is subtracted in every step. Before, rings are too large for it to matter.
 const RECENTRE_FROM: i32 = 4;
@@ -37,12 +37,12 @@ pub(super) fn narrow(p: Wide) -> Vec3 {
 
 #[inline(always)]
 pub(super) fn add(a: Wide, b: Wide) -> Wide {
-    std::array::from_fn(|c| a[c] + b[c])
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]]
 }
 
 #[inline(always)]
 pub(super) fn subtract(a: Wide, b: Wide) -> Wide {
-    std::array::from_fn(|c| a[c] - b[c])
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]]
 }
 
 impl Walk {
@@ -99,8 +99,10 @@ impl Walk {
 
     /// The net of a tile of this step: 0 at `(1, 0)`, 1 at `(1, 1)`, 2 at `(0, 1)`.
     #[inline]
-    pub(super) fn tile(&self, basis: &ChainBasis, tile: usize) -> [Wide; 16] {
-        basis.tiles[tile].map(|point| self.fine[point as usize])
+    pub(super) fn tile(&self, basis: &ChainBasis, tile: usize, net: &mut [Wide; 16]) {
+        for (point, &number) in net.iter_mut().zip(&basis.tiles[tile]) {
+            *point = self.fine[number as usize];
+        }
     }
 
     /// Limit position of the corner, and two vectors that span the tangent plane where there are masks for them.

@@ -113,6 +113,8 @@ enum Slot {
 
 /// What is found out about a quad without writing anything.
 enum Found {
+    PlainLeaf([u32; 16]),
+    PlainTail { corner: u32, valence: u32, ring: Vec<u32> },
     Leaf(Box<[Mirrored; 16]>),
     Tail { corner: u32, kind: Kind, ring: Vec<Mirrored> },
     Split,
@@ -224,6 +226,16 @@ impl Builder {
         Node::new(Piece::Tail(self.table.tails.len() as u32 - 1))
     }
 
+    fn leaf(&mut self, slot: Slot, net: [u32; 16]) {
+        if let Slot::Root(root) = slot {
+            self.table.roots[root as usize] = net;
+            return;
+        }
+        self.table.leaves.push(net);
+        let index = self.table.leaves.len() as u32 - 1;
+        self.place(slot, Node::new(Piece::Leaf(index)));
+    }
+
     fn place(&mut self, slot: Slot, node: Node) {
         match slot {
             Slot::Root(root) | Slot::Corners { first: root } => {
@@ -235,21 +247,31 @@ impl Builder {
 
     /// Writes leaves and tails; gives what has to be split. `rows` are the points of a level below the cage.
     fn settle(&mut self, level: &Level, rows: Option<&StencilTable>, targets: Vec<Target>) -> Vec<Target> {
-        let found = par::map(targets.len(), |i| find(level, targets[i]));
-        let mut points = Points { rows, vertices: HashMap::new(), mirrored: HashMap::new() };
+        let tagged = tagged_vertices(level);
+        let found = par::collect(targets.len(), |i| find(level, &tagged, targets[i]));
+        let vertices =
+            if rows.is_some() { vec![UNKNOWN; level.topology().vertex_count()] } else { Vec::new() };
+        let mut points = Points { rows, vertices, mirrored: HashMap::new() };
         let mut split = Vec::new();
         for (target, found) in targets.into_iter().zip(found) {
             match found {
+                Found::PlainLeaf(net) => {
+                    let net = net.map(|vertex| points.vertex(&mut self.table, vertex));
+                    self.leaf(target.slot, net);
+                }
+                Found::PlainTail { corner, valence, ring } => {
+                    let first = self.table.rings.len() as u32;
+                    for vertex in ring {
+                        let number = points.vertex(&mut self.table, vertex);
+                        self.table.rings.push(number);
+                    }
+                    let kind = self.kind(Kind::Smooth { valence });
+                    let node = self.tail(Tail { first, kind, corner });
+                    self.place(target.slot, node);
+                }
                 Found::Leaf(net) => {
                     let net = net.map(|point| points.number(&mut self.table, &point));
-                    match target.slot {
-                        Slot::Root(root) => self.table.roots[root as usize] = net,
-                        slot => {
-                            self.table.leaves.push(net);
-                            let index = self.table.leaves.len() as u32 - 1;
-                            self.place(slot, Node::new(Piece::Leaf(index)));
-                        }
-                    }
+                    self.leaf(target.slot, net);
                 }
                 Found::Tail { corner, kind, ring } => {
                     let first = self.table.rings.len() as u32;
@@ -343,13 +365,26 @@ fn touches(mesh: &impl Connectivity, h: HalfedgeId, tagged: &[bool]) -> bool {
 }
 
 /// What a target is.
-fn find(level: &Level, target: Target) -> Found {
+fn find(level: &Level, tagged: &[bool], target: Target) -> Found {
     let topology = level.topology();
     if matches!(target.slot, Slot::Corners { .. }) {
         return Found::Split;
     }
     let first = topology.first(target.face).0;
     let corners = [0, 1, 2, 3].map(|corner| HalfedgeId(first + (target.corner + corner) % 4));
+    if let Some(quads) = topology.as_quads().filter(|quads| !touches(quads, HalfedgeId(first), tagged)) {
+        match plain_corners(&quads, corners[0]) {
+            Plain::Regular(net) => return Found::PlainLeaf(net),
+            Plain::OneIrregular { corner, outer } => {
+                let mut ring = Vec::with_capacity(24);
+                if let Some(valence) = plain_ring(&quads, corners[corner as usize], &mut ring) {
+                    ring.extend(outer);
+                    return Found::PlainTail { corner, valence, ring };
+                }
+            }
+            Plain::Other => {}
+        }
+    }
     let surroundings = Surroundings::new(level);
     let mut irregular = None;
     for (corner, &h) in (0..).zip(&corners) {
@@ -372,17 +407,26 @@ fn find(level: &Level, target: Target) -> Found {
 struct Points<'a> {
     /// Weights on the cage; `None` for the cage itself.
     rows: Option<&'a StencilTable>,
-    vertices: HashMap<u32, u32>,
+    /// Numbers given so far, by vertex; empty for the cage.
+    vertices: Vec<u32>,
     mirrored: HashMap<Vec<(u32, i32)>, u32>,
 }
 
+const UNKNOWN: u32 = u32::MAX;
+
 impl Points<'_> {
+    fn vertex(&mut self, table: &mut PatchTable, vertex: u32) -> u32 {
+        let Some(rows) = self.rows else { return vertex };
+        let number = &mut self.vertices[vertex as usize];
+        if *number == UNKNOWN {
+            *number = add_point(table, rows.row(vertex as usize));
+        }
+        *number
+    }
+
     fn number(&mut self, table: &mut PatchTable, point: &Mirrored) -> u32 {
         match (&point[..], self.rows) {
-            (&[(vertex, _)], None) => vertex,
-            (&[(vertex, _)], Some(rows)) => {
-                *self.vertices.entry(vertex).or_insert_with(|| add_point(table, rows.row(vertex as usize)))
-            }
+            (&[(vertex, _)], _) => self.vertex(table, vertex),
             (terms, rows) => {
                 // Weights of mirrored points are small whole numbers.
                 let key = terms.iter().map(|&(vertex, weight)| (vertex, weight as i32)).collect();

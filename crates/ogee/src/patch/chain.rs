@@ -16,8 +16,8 @@
 //! first sharp edge, and there is one neighbour more than diagonals. A [`Kind`] decides the rest, so each kind is worked
 //! out once: a model of it is refined by the ordinary masks, and what they say is kept as weights.
 
-use super::masks;
 use super::surroundings::{Mirrored, Surroundings};
+use super::{masks, smooth};
 use crate::math::{Vec3, simd};
 use crate::mesh::{Boundary, Creasing, EdgeId, FaceId, FaceList, HalfedgeId, Scheme, Topology, VertexId};
 use crate::rules::masks as rules;
@@ -494,9 +494,38 @@ impl simd::Kernel for Step<'_> {
 
     #[inline(always)]
     fn run(self) {
+        if let Kind::Smooth { valence } = self.basis.kind {
+            return smooth::step(valence as usize, self.ring, self.fine);
+        }
         let count = self.basis.kind.ring_count();
         let (ring, face_points) = self.ring.split_at_mut(count);
         self.basis.face_points.apply(ring, face_points);
         self.basis.fine.apply(self.ring, self.fine);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_quick_step_is_the_general_step() {
+        for valence in [3, 4, 5, 6, 7, 12, 50] {
+            let basis = ChainBasis::new(Kind::Smooth { valence });
+            let mut ring = vec![[0.0; 4]; basis.work_count()];
+            for (i, point) in ring.iter_mut().take(basis.ring_count()).enumerate() {
+                let t = i as f64;
+                *point = [(1.3 * t).sin(), (0.7 * t).cos(), (t * t).sin(), 0.0];
+            }
+            let mut quick = vec![[0.0; 4]; basis.work_count()];
+            smooth::step(valence as usize, &mut ring.clone(), &mut quick);
+            let mut general = vec![[0.0; 4]; basis.work_count()];
+            let (points, face_points) = ring.split_at_mut(basis.ring_count());
+            basis.face_points.apply(points, face_points);
+            basis.fine.apply(&ring, &mut general);
+            for (a, b) in quick.iter().zip(&general) {
+                assert!((0..4).all(|c| (a[c] - b[c]).abs() < 1e-15), "valence {valence}: {a:?} {b:?}");
+            }
+        }
     }
 }

@@ -100,8 +100,10 @@ impl PatchTable {
     }
 
     /// False if the parametric face is no part of the surface: in a hole, or at a boundary that the scheme leaves out.
+    #[inline]
     pub fn is_visible(&self, number: usize) -> bool {
-        number < self.len() && self.hidden.binary_search(&(number as u32)).is_err()
+        let is_hidden = || self.hidden.binary_search(&(number as u32)).is_ok();
+        number < self.len() && (self.hidden.is_empty() || !is_hidden())
     }
 
     /// Checks an address: `corner` is `None` on a quad and a corner's number on any other polygon, `u` and `v` are in
@@ -109,6 +111,7 @@ impl PatchTable {
     ///
     /// # Errors
     /// If it names no point of the surface.
+    #[inline]
     pub fn locate(
         &self,
         face: FaceId,
