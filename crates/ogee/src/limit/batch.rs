@@ -4,7 +4,7 @@ use super::bicubic::{self, Jet, Lanes, Net, lanes};
 use super::walk::{MAX_STEPS, Walk, narrow, subtract, wide};
 use super::{Derivatives, Flags, Samples};
 use crate::math::{Vec3, par, simd};
-use crate::patch::{ChainBasis, Kind, Location, PatchTable, Piece, Wide, to_corner};
+use crate::patch::{ChainBasis, Kind, Location, PatchTable, Piece, Tail, Wide, to_corner};
 
 /// Samples that one task works through, and sorts where that helps.
 const CHUNK: usize = 8192;
@@ -103,8 +103,8 @@ impl Batch<'_> {
         }
         let mut worker = Worker::new(self);
         match self.order(at) {
-            Some(order) => worker.all(at, order.into_iter(), &mut out),
-            None => worker.all(at, 0..at.len() as u32, &mut out),
+            Some(order) => worker.all(at, |i| order[i] as usize, &mut out),
+            None => worker.all(at, |i| i, &mut out),
         }
     }
 
@@ -117,6 +117,36 @@ impl Batch<'_> {
         let mut order: Vec<u32> = (0..at.len() as u32).collect();
         order.sort_unstable_by_key(|&i| (at[i as usize].root, i));
         Some(order)
+    }
+}
+
+/// Reads ahead: where samples are scattered, waiting for memory costs several times the arithmetic.
+#[derive(Default)]
+struct Ahead {
+    /// How far each stage has come.
+    done: [usize; 3],
+}
+
+impl Ahead {
+    /// Samples between asking for a face, for its points or its ring's numbers, for its ring's points, and using them.
+    const DISTANCES: [usize; 3] = [24, 16, 8];
+
+    #[inline(always)]
+    fn look(&mut self, at: usize, count: usize, root: impl Fn(usize) -> u32, batch: Batch<'_>) {
+        for (stage, distance) in Ahead::DISTANCES.into_iter().enumerate() {
+            let end = (at + distance).min(count);
+            for i in self.done[stage].max(at)..end {
+                if i > 0 && root(i) == root(i - 1) {
+                    continue;
+                }
+                match stage {
+                    0 => batch.table.prefetch_root(root(i)),
+                    1 => batch.table.prefetch_points(root(i), batch.points),
+                    _ => batch.table.prefetch_ring(root(i), batch.points),
+                }
+            }
+            self.done[stage] = end;
+        }
     }
 }
 
@@ -163,21 +193,22 @@ impl<'a> Worker<'a> {
         Worker { batch, walk: Walk::default(), group, items: Vec::new(), keyed: Vec::new() }
     }
 
-    /// All samples of a chunk in the order given.
-    fn all(&mut self, at: &[Location], order: impl Iterator<Item = u32>, out: &mut Out<'_>) {
-        let mut order = order.peekable();
-        while let Some(first) = order.next() {
-            let root = at[first as usize].root;
-            let item = |index: u32| {
-                let at = &at[index as usize];
-                Item { x: at.u, y: at.v, index }
-            };
+    /// All samples of a chunk, `order(0), order(1), ..`.
+    fn all(&mut self, at: &[Location], order: impl Fn(usize) -> usize, out: &mut Out<'_>) {
+        let root = |i: usize| at[order(i)].root;
+        let mut i = 0;
+        let mut ahead = Ahead::default();
+        while i < at.len() {
+            let first = root(i);
             self.items.clear();
-            self.items.push(item(first));
-            while let Some(index) = order.next_if(|&index| at[index as usize].root == root) {
-                self.items.push(item(index));
+            while i < at.len() && root(i) == first {
+                let number = order(i);
+                let Location { u: x, v: y, .. } = at[number];
+                self.items.push(Item { x, y, index: number as u32 });
+                i += 1;
             }
-            self.run(root, out);
+            ahead.look(i, at.len(), root, self.batch);
+            self.run(first, out);
         }
     }
 
@@ -190,7 +221,7 @@ impl<'a> Worker<'a> {
             self.evaluate(&items, out);
         } else {
             match table.root_node(root).piece() {
-                Piece::Tail(tail) => self.chain(tail, &mut items, out),
+                Piece::Tail(number) => self.chain(number, table.root_tail(root), &mut items, out),
                 _ => self.tree(root, &mut items, out),
             }
         }
@@ -198,9 +229,9 @@ impl<'a> Worker<'a> {
     }
 
     /// Samples of a face that is one chain: put into buckets by step and tile, as long as those are few.
-    fn chain(&mut self, tail: u32, items: &mut [Item], out: &mut Out<'_>) {
+    fn chain(&mut self, number: u32, tail: Tail, items: &mut [Item], out: &mut Out<'_>) {
         const BUCKETS: usize = 256;
-        let corner = self.batch.table.tail(tail).corner;
+        let corner = tail.corner;
         let mut ends = [0u32; BUCKETS + 1];
         self.keyed.clear();
         let mut largest = 0;
@@ -219,7 +250,7 @@ impl<'a> Worker<'a> {
                 for (item, keyed) in items.iter_mut().zip(same) {
                     *item = keyed.item;
                 }
-                self.piece(Patch::of_step(tail, same[0].key, 0), &items[..same.len()], out);
+                self.piece(Patch::of_step(tail, number, same[0].key, 0), &items[..same.len()], out);
             }
             self.keyed = keyed;
             return;
@@ -236,7 +267,7 @@ impl<'a> Worker<'a> {
         for key in 0..=largest {
             let (start, end) = (ends[key] as usize, ends[key + 1] as usize);
             if start < end {
-                self.piece(Patch::of_step(tail, key as u64, 0), &items[start..end], out);
+                self.piece(Patch::of_step(tail, number, key as u64, 0), &items[start..end], out);
             }
         }
     }
@@ -255,7 +286,7 @@ impl<'a> Worker<'a> {
             for (item, keyed) in items.iter_mut().zip(same) {
                 *item = keyed.item;
             }
-            self.piece(Patch::of(same[0].key), &items[..same.len()], out);
+            self.piece(Patch::of(table, same[0].key), &items[..same.len()], out);
         }
         self.keyed = keyed;
     }
@@ -264,8 +295,8 @@ impl<'a> Worker<'a> {
     fn piece(&mut self, patch: Patch, items: &[Item], out: &mut Out<'_>) {
         match patch {
             Patch::Leaf { index, depth } => self.leaf(self.batch.table.leaf(index), depth),
-            Patch::Tile { tail, step, beyond, tile, depth } => self.tile(tail, step, beyond, tile, depth),
-            Patch::Vertex { tail } => return self.vertex(tail, items, out),
+            Patch::Tile(tile) => self.tile(tile),
+            Patch::Vertex { tail, number } => return self.vertex(tail, number, items, out),
         }
         self.evaluate(items, out);
     }
@@ -283,10 +314,10 @@ impl<'a> Worker<'a> {
         self.group.flags = Flags::NONE;
     }
 
-    fn tile(&mut self, tail: u32, step: i32, beyond: i32, tile: usize, depth: i32) {
+    fn tile(&mut self, Tile { tail, number, step, beyond, tile, depth }: Tile) {
         let Batch { table, points, .. } = self.batch;
-        self.walk.go(table, points, tail, step);
-        let basis = table.basis(table.tail(tail));
+        self.walk.go(table, points, number, tail, step);
+        let basis = table.basis(tail);
         let scale = power_of_two(step + depth);
         let group = &mut self.group;
         group.scales = [1.0, scale, scale * scale];
@@ -298,7 +329,7 @@ impl<'a> Worker<'a> {
             group.scales = [power(1.0), scale * power(2.0), (scale * scale * power(4.0)).min(f64::MAX)];
             group.flags = Flags::BEYOND_NMAX;
         }
-        group.corner = table.tail(tail).corner;
+        group.corner = tail.corner;
         group.base = self.walk.base();
         self.walk.tile(basis, tile, &mut group.net);
     }
@@ -314,17 +345,17 @@ impl<'a> Worker<'a> {
     }
 
     /// Samples at an extraordinary vertex itself.
-    fn vertex(&mut self, tail: u32, items: &[Item], out: &mut Out<'_>) {
+    fn vertex(&mut self, tail: Tail, number: u32, items: &[Item], out: &mut Out<'_>) {
         let Batch { table, points, what } = self.batch;
-        let (position, masks) = self.walk.corner(table, points, tail);
-        let basis = table.basis(table.tail(tail));
+        let (position, masks) = self.walk.corner(table, points, number, tail);
+        let basis = table.basis(tail);
         let outward = self.walk.outward(basis);
         let mut flags = flags_at(basis);
         let mut tangents = [Vec3::ZERO; 2];
         let mut normal = None;
         if what > Derivatives::None {
             tangents = masks.unwrap_or_else(|| {
-                self.walk.go(table, points, tail, MAX_STEPS);
+                self.walk.go(table, points, number, tail, MAX_STEPS);
                 self.walk.tile(basis, 1, &mut self.group.net);
                 let jet = bicubic::one::<1>(&self.group.net, 0.0, 0.0);
                 [jet[1], jet[2]].map(|tangent| narrow(tangent).normalized().unwrap_or(Vec3::ZERO))
@@ -340,7 +371,7 @@ impl<'a> Worker<'a> {
                 flags = flags.with(Flags::NORMAL_UNDEFINED);
             }
         }
-        let [du, dv] = match table.tail(tail).corner {
+        let [du, dv] = match tail.corner {
             0 => tangents,
             1 => [-tangents[1], tangents[0]],
             2 => [-tangents[0], -tangents[1]],
@@ -381,8 +412,18 @@ fn flags_at(basis: &ChainBasis) -> Flags {
 /// The patch that a key stands for.
 enum Patch {
     Leaf { index: u32, depth: i32 },
-    Tile { tail: u32, step: i32, beyond: i32, tile: usize, depth: i32 },
-    Vertex { tail: u32 },
+    Tile(Tile),
+    Vertex { tail: Tail, number: u32 },
+}
+
+/// A tile of a tail: its step, how many more steps the point lies below that, and which of the three.
+struct Tile {
+    tail: Tail,
+    number: u32,
+    step: i32,
+    beyond: i32,
+    tile: usize,
+    depth: i32,
 }
 
 /// Bits of a key: 1 for a tail, 30 for which piece, 5 for how often it was halved, 12 for the step counted without end,
@@ -401,23 +442,23 @@ fn key(table: &PatchTable, piece: Piece, (u, v): (f64, f64), depth: i32, index: 
 }
 
 impl Patch {
-    fn of(key: u64) -> Patch {
+    fn of(table: &PatchTable, key: u64) -> Patch {
         let head = key >> 14;
         let (depth, piece) = ((head & 0x1f) as i32, (head >> 5 & 0x3fff_ffff) as u32);
         if head >> 35 == 0 {
             return Patch::Leaf { index: piece, depth };
         }
-        Patch::of_step(piece, key & 0x3fff, depth)
+        Patch::of_step(table.tail(piece), piece, key & 0x3fff, depth)
     }
 
     /// From step and tile alone.
-    fn of_step(tail: u32, key: u64, depth: i32) -> Patch {
+    fn of_step(tail: Tail, number: u32, key: u64, depth: i32) -> Patch {
         let (step, tile) = ((key >> 2) as i32, (key & 3) as usize);
         if step == 0 {
-            return Patch::Vertex { tail };
+            return Patch::Vertex { tail, number };
         }
         let beyond = (step - MAX_STEPS).max(0);
-        Patch::Tile { tail, step: step - beyond, beyond, tile, depth }
+        Patch::Tile(Tile { tail, number, step: step - beyond, beyond, tile, depth })
     }
 }
 

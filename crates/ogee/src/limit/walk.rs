@@ -66,8 +66,7 @@ impl Walk {
     }
 
     /// Goes to a step of a tail, forward if it can.
-    pub(super) fn go(&mut self, table: &PatchTable, points: &[Vec3], number: u32, step: i32) {
-        let tail = table.tail(number);
+    pub(super) fn go(&mut self, table: &PatchTable, points: &[Vec3], number: u32, tail: Tail, step: i32) {
         if self.tail != Some(number) || self.step > step {
             self.start(table, points, number, tail);
         }
@@ -111,8 +110,8 @@ impl Walk {
         table: &PatchTable,
         points: &[Vec3],
         number: u32,
+        tail: Tail,
     ) -> (Vec3, Option<[Vec3; 2]>) {
-        let tail = table.tail(number);
         self.start(table, points, number, tail);
         let basis = table.basis(tail);
         let position = narrow(add(self.base, weighted(&basis.position, &self.ring)));

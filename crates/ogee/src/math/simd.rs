@@ -1,4 +1,4 @@
-//! The widest lanes that the processor has, chosen at run time.
+//! What the processor can do beyond plain code: wide lanes, chosen at run time, and reading ahead.
 //!
 //! A released program is compiled for the oldest processor of its kind. Inner loops over lanes of four numbers are
 //! compiled a second time for wider registers, and the processor is asked which of the two to call. Both do the same
@@ -29,4 +29,20 @@ pub(crate) fn dispatch<K: Kernel>(kernel: K) -> K::Output {
 #[target_feature(enable = "avx2")]
 fn run_avx2<K: Kernel>(kernel: K) -> K::Output {
     kernel.run()
+}
+
+/// Tells the processor that this will be read soon; nothing where it cannot be told.
+#[inline(always)]
+pub(crate) fn prefetch<T>(soon: &T) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // Sound: a hint reads nothing, and the address is that of a reference anyway.
+        #[expect(unsafe_code, reason = "the other call that depends on the processor")]
+        unsafe {
+            _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(soon).cast());
+        }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = soon;
 }

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 use super::chain::{ChainBasis, Kind};
 use super::surroundings::{CornerKind, Mirrored, Plain, Surroundings, plain_corners, plain_ring};
-use super::table::{NO_LEAF, PatchTable};
+use super::table::{NO_LEAF, PatchTable, Sources};
 use super::tree::{Node, Piece, Tail};
 use super::{Neighbourhood, with_ring};
 use crate::math::par;
@@ -139,21 +139,21 @@ impl Builder {
             let face = face_of(&starts, root as u32);
             let h = mesh.first(face);
             if mesh.face_size(face) != 4 || touches(mesh, h, &tagged) {
-                return slot;
+                return Sources(slot);
             }
             match plain_corners(mesh, h) {
-                Plain::Regular(net) => net,
+                Plain::Regular(net) => return Sources(net),
                 Plain::OneIrregular { corner, outer } => {
                     slot[1..3].copy_from_slice(&[PENDING, corner]);
                     slot[3..10].copy_from_slice(&outer);
-                    slot
                 }
-                Plain::Other => slot,
+                Plain::Other => {}
             }
+            Sources(slot)
         });
-        let unsettled = (0..count as u32).filter(|&root| self.table.roots[root as usize][0] == NO_LEAF);
+        let unsettled = (0..count as u32).filter(|&root| self.table.roots[root as usize].0[0] == NO_LEAF);
         let (pending, other): (Vec<u32>, Vec<u32>) =
-            unsettled.partition(|&root| self.table.roots[root as usize][1] == PENDING);
+            unsettled.partition(|&root| self.table.roots[root as usize].0[1] == PENDING);
         let mut rest = self.plain_tails(mesh, &starts, &pending);
         let hidden = &self.table.hidden;
         let visible = |root: &u32| hidden.binary_search(root).is_err();
@@ -178,7 +178,7 @@ impl Builder {
             let mut rings: Vec<u32> = Vec::new();
             let mut valences = Vec::new();
             for &root in &pending[chunk * CHUNK..((chunk + 1) * CHUNK).min(pending.len())] {
-                let slot = &roots[root as usize];
+                let slot = &roots[root as usize].0;
                 let h = HalfedgeId(mesh.first(face_of(starts, root)).0 + slot[2]);
                 let valence = plain_ring(mesh, h, &mut rings);
                 if valence.is_some() {
@@ -197,13 +197,14 @@ impl Builder {
             self.table.rings.extend(rings);
             for (valence, &root) in valences.into_iter().zip(&mut pending) {
                 let Some(valence) = valence else {
-                    self.table.roots[root as usize][1] = Node::NONE.bits();
+                    self.table.roots[root as usize].0[1] = Node::NONE.bits();
                     let face = face_of(starts, root);
                     rest.push(Target { face, corner: 0, slot: Slot::Root(root) });
                     continue;
                 };
                 let kind = Kind::Smooth { valence };
-                let tail = Tail { first, kind: self.kind(kind), corner: self.table.roots[root as usize][2] };
+                let tail =
+                    Tail { first, kind: self.kind(kind), corner: self.table.roots[root as usize].0[2] };
                 first += kind.ring_count() as u32;
                 let node = self.tail(tail);
                 self.place(Slot::Root(root), node);
@@ -228,10 +229,10 @@ impl Builder {
 
     fn leaf(&mut self, slot: Slot, net: [u32; 16]) {
         if let Slot::Root(root) = slot {
-            self.table.roots[root as usize] = net;
+            self.table.roots[root as usize] = Sources(net);
             return;
         }
-        self.table.leaves.push(net);
+        self.table.leaves.push(Sources(net));
         let index = self.table.leaves.len() as u32 - 1;
         self.place(slot, Node::new(Piece::Leaf(index)));
     }
@@ -239,7 +240,12 @@ impl Builder {
     fn place(&mut self, slot: Slot, node: Node) {
         match slot {
             Slot::Root(root) | Slot::Corners { first: root } => {
-                self.table.roots[root as usize][..2].copy_from_slice(&[NO_LEAF, node.bits()]);
+                let slot = &mut self.table.roots[root as usize].0;
+                slot[..2].copy_from_slice(&[NO_LEAF, node.bits()]);
+                if let Piece::Tail(tail) = node.piece() {
+                    let Tail { first, kind, corner } = self.table.tails[tail as usize];
+                    slot[2..5].copy_from_slice(&[first, kind, corner]);
+                }
             }
             Slot::Child { split, corner } => self.table.splits[split as usize][corner as usize] = node,
         }

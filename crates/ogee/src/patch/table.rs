@@ -3,6 +3,7 @@
 use super::chain::ChainBasis;
 use super::tree::{Node, Piece, Tail};
 use super::{Location, LocationError, ParametricFace, build};
+use crate::math::{Vec3, simd};
 use crate::mesh::FaceId;
 use crate::rules::Level;
 use crate::stencil::StencilTable;
@@ -30,10 +31,10 @@ pub struct PatchTable {
     pub(super) starts: Vec<u32>,
     /// For each parametric face that is not visible its number, in order.
     pub(super) hidden: Vec<u32>,
-    /// For each parametric face its net (`i + 4 j`), or [`NO_LEAF`] and a node.
-    pub(super) roots: Vec<[u32; 16]>,
+    /// For each parametric face its net, or [`NO_LEAF`], a node, and the tail if it is one.
+    pub(super) roots: Vec<Sources>,
     /// Nets of leaves below splits.
-    pub(super) leaves: Vec<[u32; 16]>,
+    pub(super) leaves: Vec<Sources>,
     pub(super) splits: Vec<[Node; 4]>,
     pub(super) tails: Vec<Tail>,
     pub(super) rings: Vec<u32>,
@@ -41,6 +42,11 @@ pub struct PatchTable {
     /// Points that splits bring and points mirrored at sharp edges, over the cage; numbered after the cage's.
     pub(super) local: StencilTable,
 }
+
+/// Numbers of the points of a net, `i + 4 j`; one line of the processor's cache.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub(crate) struct Sources(pub(crate) [u32; 16]);
 
 /// Stands first in a root that is not a leaf; no point has this number.
 pub(super) const NO_LEAF: u32 = u32::MAX;
@@ -148,7 +154,7 @@ impl PatchTable {
 
     /// How many pieces there are, and what they cost.
     pub fn statistics(&self) -> PatchStatistics {
-        let root_leaves = self.roots.iter().filter(|net| net[0] != NO_LEAF).count();
+        let root_leaves = self.roots.iter().filter(|net| net.0[0] != NO_LEAF).count();
         let rows = self.local.len();
         let weights: usize = (0..rows).map(|row| self.local.row(row).len()).sum();
         PatchStatistics {
@@ -174,19 +180,61 @@ impl PatchTable {
     /// The net of a parametric face that is one leaf.
     #[inline]
     pub(crate) fn root_leaf(&self, root: u32) -> Option<&[u32; 16]> {
-        let net = &self.roots[root as usize];
+        let net = &self.roots[root as usize].0;
         (net[0] != NO_LEAF).then_some(net)
     }
 
     /// The node of a parametric face that is not a leaf.
     #[inline]
     pub(crate) fn root_node(&self, root: u32) -> Node {
-        Node::from_bits(self.roots[root as usize][1])
+        Node::from_bits(self.roots[root as usize].0[1])
+    }
+
+    /// The tail of a parametric face that is one.
+    #[inline]
+    pub(crate) fn root_tail(&self, root: u32) -> Tail {
+        let [_, _, first, kind, corner, ..] = self.roots[root as usize].0;
+        Tail { first, kind, corner }
+    }
+
+    /// Asks for what is stored about a parametric face, long before it is needed.
+    #[inline(always)]
+    pub(crate) fn prefetch_root(&self, root: u32) {
+        simd::prefetch(&self.roots[root as usize]);
+    }
+
+    /// Asks for the points of a parametric face, or for the numbers of its ring, before they are needed.
+    #[inline(always)]
+    pub(crate) fn prefetch_points(&self, root: u32, points: &[Vec3]) {
+        let sources = &self.roots[root as usize].0;
+        if sources[0] != NO_LEAF {
+            // Neighbours along the net mostly share a line.
+            for &source in sources {
+                simd::prefetch(&points[source as usize]);
+            }
+        } else if let Piece::Tail(_) = self.root_node(root).piece() {
+            let ring = self.ring(self.root_tail(root));
+            for line in ring.chunks(16) {
+                simd::prefetch(&line[0]);
+            }
+        }
+    }
+
+    /// Asks for the points of a ring whose numbers are there.
+    #[inline(always)]
+    pub(crate) fn prefetch_ring(&self, root: u32, points: &[Vec3]) {
+        if self.roots[root as usize].0[0] == NO_LEAF
+            && let Piece::Tail(_) = self.root_node(root).piece()
+        {
+            for &source in self.ring(self.root_tail(root)) {
+                simd::prefetch(&points[source as usize]);
+            }
+        }
     }
 
     #[inline]
     pub(crate) fn leaf(&self, index: u32) -> &[u32; 16] {
-        &self.leaves[index as usize]
+        &self.leaves[index as usize].0
     }
 
     #[inline]
