@@ -323,11 +323,10 @@ impl<'a> Worker<'a> {
         group.scales = [1.0, scale, scale * scale];
         group.flags = Flags::NONE;
         if beyond > 0 {
-            let shrink = basis.eigenvalue.powi(beyond);
-            let grow = power_of_two(beyond);
+            // Products of powers would leave the range of numbers where the power of the product does not.
+            let power = |factor: f64| (factor * basis.eigenvalue).powi(beyond);
             // An infinite scale would make NaN of a zero.
-            group.scales =
-                [shrink, scale * (grow * shrink), (scale * scale * grow * (grow * shrink)).min(f64::MAX)];
+            group.scales = [power(1.0), scale * power(2.0), (scale * scale * power(4.0)).min(f64::MAX)];
             group.flags = Flags::BEYOND_NMAX;
         }
         group.corner = tail.corner;

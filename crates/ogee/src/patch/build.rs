@@ -305,7 +305,12 @@ impl Builder {
         split: Vec<Target>,
     ) -> (Below, Vec<Target>) {
         let faces: Vec<FaceId> = split.iter().map(|target| target.face).collect();
-        let part_faces = with_ring(level, &faces);
+        let mut part_faces = with_ring(level, &faces);
+        if level.is_chaikin() {
+            // How a crease fades is decided by all edges at its far end as well, and hidden faces bring no ring of
+            // their own.
+            part_faces = with_ring(level, &part_faces);
+        }
         let part = Neighbourhood::new(level, &part_faces);
         let step = part.level.refine();
         let composed = StencilTable::from_rows(step.stencils.len(), |i, row| {

@@ -225,8 +225,8 @@ pub(super) fn plain_corners(mesh: &impl Connectivity, h: HalfedgeId) -> Plain {
         net[slots[1 + DIAGONAL]] = mesh.origin(mesh.prev(opposite)).0;
         let left = mesh.prev(beside);
         net[slots[1 + LEFT]] = mesh.origin(left).0;
-        // Four quads close the ring here.
-        if mesh.twin(left) != Some(mesh.next(opposite)) {
+        // Four quads close the ring here; two do so as well, on the second time round.
+        if mesh.twin(left) != Some(mesh.next(opposite)) || mesh.face(opposite) == mesh.face(corner) {
             if irregular.is_some() {
                 return Plain::Other;
             }
