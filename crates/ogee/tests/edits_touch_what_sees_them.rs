@@ -36,7 +36,7 @@ fn a_moved_vertex_is_as_good_as_a_new_cage() {
         let mut moved = mesh.points.clone();
         for v in (0..mesh.points.len()).step_by(mesh.points.len().div_ceil(7)) {
             let before = surface.eval_batch(&at, Derivatives::Second);
-            moved[v] = moved[v] + Vec3::new(0.11, -0.07, 0.23);
+            moved[v] += Vec3::new(0.11, -0.07, 0.23);
             let vertex = VertexId(v as u32);
             surface.move_point(vertex, moved[v]);
             let after = surface.eval_batch(&at, Derivatives::Second);

@@ -52,12 +52,12 @@ pub(super) fn bends<const L: usize>(t: Lanes<L>) -> [Lanes<L>; 4] {
     [lanes(|l| 1.0 - t[l]), lanes(|l| 3.0 * t[l] - 2.0), lanes(|l| 1.0 - 3.0 * t[l]), lanes(|l| t[l])]
 }
 
-/// Position, `du`, `dv`, `duu`, `duv`, `dvv`; what was not asked for is zero.
-pub(super) type Jet<T> = [T; 6];
+/// The first parts of position, `du`, `dv`, `duu`, `duv`, `dvv`: one, three or six.
+pub(super) type Jet<T, const PARTS: usize> = [T; PARTS];
 
 /// One sample: coordinates in lanes.
 #[inline(always)]
-pub(super) fn one<const ORDER: usize>(net: &Net, x: f64, y: f64) -> Jet<Wide> {
+pub(super) fn one<const PARTS: usize>(net: &Net, x: f64, y: f64) -> Jet<Wide, PARTS> {
     let (bx, by) = (values([x]), values([y]));
     let (dx, dy) = (slopes([x]), slopes([y]));
     let (ddx, ddy) = (bends([x]), bends([y]));
@@ -75,20 +75,20 @@ pub(super) fn one<const ORDER: usize>(net: &Net, x: f64, y: f64) -> Jet<Wide> {
                 + basis[3][0] * rows[3][c]
         })
     };
-    let mut jet = [[0.0; 4]; 6];
+    let mut jet = [[0.0; 4]; PARTS];
     let mut rows = [[0.0; 4]; 4];
     for (j, row) in rows.iter_mut().enumerate() {
         *row = along(&bx, j);
     }
     jet[0] = across(&by, &rows);
-    if ORDER > 0 {
+    if PARTS > 1 {
         let mut slope_rows = [[0.0; 4]; 4];
         for (j, row) in slope_rows.iter_mut().enumerate() {
             *row = along(&dx, j);
         }
         jet[1] = across(&by, &slope_rows);
         jet[2] = across(&dy, &rows);
-        if ORDER > 1 {
+        if PARTS > 3 {
             let mut bend_rows = [[0.0; 4]; 4];
             for (j, row) in bend_rows.iter_mut().enumerate() {
                 *row = along(&ddx, j);
@@ -103,15 +103,15 @@ pub(super) fn one<const ORDER: usize>(net: &Net, x: f64, y: f64) -> Jet<Wide> {
 
 /// Samples in lanes: for each part of the jet its three coordinates.
 #[inline(always)]
-pub(super) fn many<const ORDER: usize, const L: usize>(
+pub(super) fn many<const PARTS: usize, const L: usize>(
     net: &Net,
     x: Lanes<L>,
     y: Lanes<L>,
-) -> Jet<[Lanes<L>; 3]> {
+) -> Jet<[Lanes<L>; 3], PARTS> {
     let (bx, by) = (values(x), values(y));
-    let mut jet = [[[0.0; L]; 3]; 6];
-    let (dx, dy) = if ORDER > 0 { (slopes(x), slopes(y)) } else { ([[0.0; L]; 4], [[0.0; L]; 4]) };
-    let (ddx, ddy) = if ORDER > 1 { (bends(x), bends(y)) } else { ([[0.0; L]; 4], [[0.0; L]; 4]) };
+    let mut jet = [[[0.0; L]; 3]; PARTS];
+    let (dx, dy) = if PARTS > 1 { (slopes(x), slopes(y)) } else { ([[0.0; L]; 4], [[0.0; L]; 4]) };
+    let (ddx, ddy) = if PARTS > 3 { (bends(x), bends(y)) } else { ([[0.0; L]; 4], [[0.0; L]; 4]) };
     for c in 0..3 {
         let along = |basis: &[Lanes<L>; 4], j: usize| -> Lanes<L> {
             let p = [net[4 * j][c], net[4 * j + 1][c], net[4 * j + 2][c], net[4 * j + 3][c]];
@@ -130,14 +130,14 @@ pub(super) fn many<const ORDER: usize, const L: usize>(
             *row = along(&bx, j);
         }
         jet[0][c] = across(&by, &rows);
-        if ORDER > 0 {
+        if PARTS > 1 {
             let mut slope_rows = [[0.0; L]; 4];
             for (j, row) in slope_rows.iter_mut().enumerate() {
                 *row = along(&dx, j);
             }
             jet[1][c] = across(&by, &slope_rows);
             jet[2][c] = across(&dy, &rows);
-            if ORDER > 1 {
+            if PARTS > 3 {
                 let mut bend_rows = [[0.0; L]; 4];
                 for (j, row) in bend_rows.iter_mut().enumerate() {
                     *row = along(&ddx, j);

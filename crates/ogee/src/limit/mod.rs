@@ -2,6 +2,9 @@
 
 mod batch;
 mod bicubic;
+mod corner;
+mod evaluate;
+mod out;
 mod place;
 mod point;
 mod stencils;

@@ -2,8 +2,8 @@
 //!
 //! A patch has a *key*, a number: samples of one patch have the same key, and sorted keys go down a chain step by step.
 
-use super::walk::MAX_STEPS;
-use crate::patch::{Location, PatchTable, Piece, Tail, to_corner};
+use super::walk::last_step;
+use crate::patch::{Location, PatchTable, Piece, Tail, from_corner, to_corner};
 
 /// A patch, or an extraordinary vertex itself.
 pub(super) enum Patch<'a> {
@@ -49,9 +49,8 @@ pub(super) fn key(table: &PatchTable, root: u32, u: f64, v: f64) -> (u64, f64, f
     match piece {
         Piece::Leaf(number) => (head(0, number), u, v),
         Piece::Tail(number) => {
-            let (x, y) = to_corner(table.tail(number).corner, u, v);
-            let (low, x, y) = in_chain(x, y);
-            (head(1, number) | low, x, y)
+            let (low, u, v) = in_chain(table.tail(number).corner, u, v);
+            (head(1, number) | low, u, v)
         }
         Piece::Split(_) => unreachable!("one descends to a leaf or a tail"),
     }
@@ -66,16 +65,16 @@ impl<'a> Patch<'a> {
         if head >> (DEPTH_BITS + 30) == 0 {
             return Patch::Leaf { sources: table.leaf(number), depth };
         }
-        Patch::of_step(table.tail(number), number, key & ((1 << CHAIN_BITS) - 1), depth)
+        Patch::of_step(table, table.tail(number), number, key & ((1 << CHAIN_BITS) - 1), depth)
     }
 
     /// The patch of a tail, from the part of the key that [`in_chain`] gives.
-    pub(super) fn of_step(tail: Tail, number: u32, low: u64, depth: i32) -> Patch<'a> {
+    pub(super) fn of_step(table: &PatchTable, tail: Tail, number: u32, low: u64, depth: i32) -> Patch<'a> {
         let (step, tile) = ((low >> 2) as i32, (low & 3) as usize);
         if step == 0 {
             return Patch::Vertex { tail, number };
         }
-        let beyond = (step - MAX_STEPS).max(0);
+        let beyond = (step - last_step(table.basis(tail))).max(0);
         Patch::Tile(Tile { tail, number, step: step - beyond, beyond, tile, depth })
     }
 
@@ -89,11 +88,11 @@ impl<'a> Patch<'a> {
     }
 }
 
-/// The low part of a key for a point in the frame of an irregular corner, and its parameters in the tile. No logarithm:
-/// the exponent of the larger parameter says how often it can be doubled.
+/// The low part of a key for a point of a piece whose irregular corner is `corner`, and its parameters in the tile, in
+/// the directions of the piece. No logarithm: the exponent of the larger parameter says how often it can be doubled.
 #[inline]
-pub(super) fn in_chain(x: f64, y: f64) -> (u64, f64, f64) {
-    let (mut x, mut y) = (x, y);
+pub(super) fn in_chain(corner: u32, u: f64, v: f64) -> (u64, f64, f64) {
+    let (mut x, mut y) = to_corner(corner, u, v);
     let mut step = 0;
     while x.max(y) < f64::MIN_POSITIVE {
         if x.max(y) <= 0.0 {
@@ -112,7 +111,8 @@ pub(super) fn in_chain(x: f64, y: f64) -> (u64, f64, f64) {
         _ => 2,
     };
     let inside = |t: f64| if t >= 1.0 { t - 1.0 } else { t };
-    (((step + doublings) as u64) << 2 | tile, inside(x), inside(y))
+    let (u, v) = from_corner(corner, inside(x), inside(y));
+    (((step + doublings) as u64) << 2 | tile, u, v)
 }
 
 /// `2^e`, for exponents of numbers.

@@ -6,7 +6,7 @@ use super::Derivatives;
 use super::bicubic::{bends, slopes, values};
 use super::place::{Patch, Tile, power_of_two};
 use crate::math::par;
-use crate::patch::{ChainBasis, Location, PatchTable, Tail};
+use crate::patch::{ChainBasis, Location, PatchTable, TURNED, Tail};
 use crate::stencil::StencilTable;
 
 /// Weights of position, `du`, `dv`, `duu`, `duv`, `dvv` on some points.
@@ -63,7 +63,7 @@ impl Writer<'_> {
                 let scale = power_of_two(depth);
                 (
                     &sources[..],
-                    net_weights(x, y).map(|part| part.to_vec()).oriented(0, [1.0, scale, scale * scale]),
+                    scaled(net_weights(x, y).map(|part| part.to_vec()), [1.0, scale, scale * scale]),
                 )
             }
             Patch::Tile(tile) => (table.ring(tile.tail), self.tile(&tile, x, y)),
@@ -84,8 +84,8 @@ impl Writer<'_> {
                 return Vec::new();
             }
             let mut fine = vec![0.0; rows.len()];
-            for (&point, weight) in basis.tiles[tile.tile].iter().zip(part) {
-                fine[point as usize] += weight;
+            for (&turned, weight) in TURNED[tile.tail.corner as usize].iter().zip(part) {
+                fine[basis.tiles[tile.tile][turned as usize] as usize] += weight;
             }
             for _ in 0..tile.step {
                 fine = pulled_back(basis, rows, &fine, number > 1);
@@ -95,17 +95,15 @@ impl Writer<'_> {
         let scale = power_of_two(tile.step + tile.depth);
         let mut scales = [1.0, scale, scale * scale];
         if tile.beyond > 0 {
-            let shrink = basis.eigenvalue.powi(tile.beyond);
-            for (weight, limit) in
-                parts[0].iter_mut().zip(basis.position.iter().chain(std::iter::repeat(&0.0)))
-            {
+            let power = |factor: f64| (factor * basis.eigenvalue).powi(tile.beyond);
+            let shrink = power(1.0);
+            let limits = basis.position.iter().chain(std::iter::repeat(&0.0));
+            for (weight, limit) in parts[0].iter_mut().zip(limits) {
                 *weight = limit + shrink * (*weight - limit);
             }
-            let grow = power_of_two(tile.beyond);
-            scales[1] *= grow * shrink;
-            scales[2] = (scales[2] * grow * (grow * shrink)).min(f64::MAX);
+            scales = [1.0, scale * power(2.0), (scale * scale * power(4.0)).min(f64::MAX)];
         }
-        parts.oriented(tile.tail.corner, scales)
+        scaled(parts, scales)
     }
 }
 
@@ -146,36 +144,24 @@ fn net_weights(x: f64, y: f64) -> Parts<[f64; 16]> {
 fn vertex(table: &PatchTable, tail: Tail) -> Parts<Vec<f64>> {
     let basis = table.basis(tail);
     let [along, across] = basis.tangents.clone().unwrap_or_default();
-    let parts = [basis.position.clone(), along, across, Vec::new(), Vec::new(), Vec::new()];
-    parts.oriented(tail.corner, [1.0; 3])
+    let negative = |weights: Vec<f64>| weights.into_iter().map(|weight| -weight).collect();
+    let (du, dv) = match tail.corner {
+        0 => (along, across),
+        1 => (negative(across), along),
+        2 => (negative(along), negative(across)),
+        _ => (across, negative(along)),
+    };
+    [basis.position.clone(), du, dv, Vec::new(), Vec::new(), Vec::new()]
 }
 
-trait Oriented {
-    /// From the frame and scale of a patch to those of the face.
-    fn oriented(self, corner: u32, scales: [f64; 3]) -> Self;
-}
-
-impl Oriented for Parts<Vec<f64>> {
-    fn oriented(self, corner: u32, [_, first, second]: [f64; 3]) -> Self {
-        let [position, dx, dy, dxx, dxy, dyy] = self;
-        let scaled = |mut weights: Vec<f64>, scale: f64| {
-            for weight in &mut weights {
-                *weight *= scale;
-            }
-            weights
-        };
-        let (du, dv) = match corner {
-            0 => (scaled(dx, first), scaled(dy, first)),
-            1 => (scaled(dy, -first), scaled(dx, first)),
-            2 => (scaled(dx, -first), scaled(dy, -first)),
-            _ => (scaled(dy, first), scaled(dx, -first)),
-        };
-        let (duu, duv, dvv) = match corner {
-            0 | 2 => (scaled(dxx, second), scaled(dxy, second), scaled(dyy, second)),
-            _ => (scaled(dyy, second), scaled(dxy, -second), scaled(dxx, second)),
-        };
-        [position, du, dv, duu, duv, dvv]
+/// First and second derivatives in the parameters of the face.
+fn scaled(mut parts: Parts<Vec<f64>>, [_, first, second]: [f64; 3]) -> Parts<Vec<f64>> {
+    for (part, scale) in parts[1..].iter_mut().zip([first, first, second, second, second]) {
+        for weight in part {
+            *weight *= scale;
+        }
     }
+    parts
 }
 
 /// Weights on the cage, each vertex once, in order.

@@ -2,7 +2,8 @@
 
 use std::borrow::Cow;
 
-use super::batch::{Batch, Out, Worker};
+use super::batch::{Batch, Worker};
+use super::out::Out;
 use super::{Derivatives, Flags, LimitJet, Samples, SurfacePoint};
 use crate::math::{Interpolate, SurfaceJet, Vec3};
 use crate::mesh::VertexId;

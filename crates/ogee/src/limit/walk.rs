@@ -5,11 +5,24 @@
 //! their relative accuracy at every depth.
 
 use crate::math::Vec3;
-use crate::patch::{ChainBasis, PatchTable, Tail, Wide};
+use crate::patch::{ChainBasis, Kind, PatchTable, TURNED, Tail, Wide};
 
 /// Steps that are taken. Below them the surface is taken for its own limit shape, scaled: parameters of 1e-120 and less.
 /// Further down the squares of what is left of a ring of valence 3 would be no numbers any more.
-pub(super) const MAX_STEPS: i32 = 400;
+const MAX_STEPS: i32 = 400;
+
+/// Steps that are taken where a ring shrinks faster one way than the other: beside creases, at darts and cones. After
+/// more its tangents would be parallel, to rounding.
+const FEW_STEPS: i32 = 64;
+
+/// How many steps are taken in a chain.
+#[inline]
+pub(super) fn last_step(basis: &ChainBasis) -> i32 {
+    match basis.kind {
+        Kind::Smooth { valence: 3.. } => MAX_STEPS,
+        _ => FEW_STEPS,
+    }
+}
 
 /// From this step on the limit is subtracted in every step. Before, rings are too large for it to matter.
 const RECENTRE_FROM: i32 = 4;
@@ -96,11 +109,13 @@ impl Walk {
         self.base
     }
 
-    /// The net of a tile of this step: 0 at `(1, 0)`, 1 at `(1, 1)`, 2 at `(0, 1)`.
+    /// The net of a tile of this step, in the directions of the piece whose irregular corner is `corner`: tile 0 at
+    /// `(1, 0)` in the frame of that corner, 1 at `(1, 1)`, 2 at `(0, 1)`.
     #[inline]
-    pub(super) fn tile(&self, basis: &ChainBasis, tile: usize, net: &mut [Wide; 16]) {
-        for (point, &number) in net.iter_mut().zip(&basis.tiles[tile]) {
-            *point = self.fine[number as usize];
+    pub(super) fn tile(&self, basis: &ChainBasis, tile: usize, corner: u32, net: &mut [Wide; 16]) {
+        let numbers = &basis.tiles[tile];
+        for (point, &turned) in net.iter_mut().zip(&TURNED[corner as usize]) {
+            *point = self.fine[numbers[turned as usize] as usize];
         }
     }
 

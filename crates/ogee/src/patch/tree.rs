@@ -84,3 +84,29 @@ pub(crate) fn to_corner(r: u32, u: f64, v: f64) -> (f64, f64) {
         _ => (1.0 - v, u),
     }
 }
+
+/// The other way: parameters in the frame of corner `r` as those of the piece.
+#[inline]
+pub(crate) fn from_corner(r: u32, x: f64, y: f64) -> (f64, f64) {
+    match r {
+        0 => (x, y),
+        1 => (1.0 - y, x),
+        2 => (1.0 - x, 1.0 - y),
+        _ => (y, 1.0 - x),
+    }
+}
+
+/// For each point of a net (`i + 4 j`) its number in the net seen from corner `r`.
+pub(crate) const TURNED: [[u8; 16]; 4] = {
+    let mut turned = [[0; 16]; 4];
+    let mut point = 0;
+    while point < 16 {
+        let (i, j) = (point % 4, point / 4);
+        turned[0][point] = (i + 4 * j) as u8;
+        turned[1][point] = (j + 4 * (3 - i)) as u8;
+        turned[2][point] = (3 - i + 4 * (3 - j)) as u8;
+        turned[3][point] = (3 - j + 4 * i) as u8;
+        point += 1;
+    }
+    turned
+};

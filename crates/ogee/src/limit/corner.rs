@@ -1,0 +1,60 @@
+//! Extraordinary vertices themselves.
+
+use super::evaluate::{at_origin, unit_normal};
+use super::walk::{Walk, last_step};
+use super::{Flags, SurfacePoint};
+use crate::math::Vec3;
+use crate::patch::{ChainBasis, Kind, PatchTable, Tail};
+
+/// The point at the irregular corner of a tail, by masks; where there is no mask for its tangent plane, the limit along
+/// the middle of the tail.
+pub(super) fn at_corner(
+    walk: &mut Walk,
+    table: &PatchTable,
+    points: &[Vec3],
+    number: u32,
+    tail: Tail,
+) -> SurfacePoint {
+    let (position, masks) = walk.corner(table, points, number, tail);
+    let basis = table.basis(tail);
+    let outward = walk.outward(basis);
+    let mut flags = flags_at(basis);
+    let mut tangents = masks.unwrap_or_else(|| {
+        let mut net = [[0.0; 4]; 16];
+        walk.go(table, points, number, tail, last_step(basis));
+        walk.tile(basis, 1, 0, &mut net);
+        let [_, along, across] = at_origin(&net);
+        [along, across].map(|tangent| tangent.normalized().unwrap_or(Vec3::ZERO))
+    });
+    let mut normal = unit_normal(tangents[0], tangents[1]);
+    // The sharp edges of a reflex corner span the plane the wrong way round.
+    let is_corner = matches!(basis.kind, Kind::Corner { faces: 2, .. });
+    if is_corner && normal.is_some_and(|n| n.dot(outward) < 0.0) {
+        tangents = [tangents[1], tangents[0]];
+        normal = normal.map(|n| -n);
+    }
+    if normal.is_none() {
+        flags = flags.with(Flags::NORMAL_UNDEFINED);
+    }
+    let [du, dv] = match tail.corner {
+        0 => tangents,
+        1 => [-tangents[1], tangents[0]],
+        2 => [-tangents[0], -tangents[1]],
+        _ => [tangents[1], -tangents[0]],
+    };
+    SurfacePoint { position, du, dv, normal: normal.unwrap_or(Vec3::ZERO), flags }
+}
+
+/// What is known about an irregular vertex (`docs/methods/exact_evaluation.md`).
+fn flags_at(basis: &ChainBasis) -> Flags {
+    let flags = Flags::AT_EXTRAORDINARY;
+    let (one_sided, unbounded) = match basis.kind {
+        Kind::Smooth { valence } => (valence < 3, valence > 4),
+        Kind::Cone { .. } => (true, true),
+        Kind::Dart { .. } => (false, true),
+        Kind::Crease { faces, .. } => (faces > 3, faces > 2),
+        Kind::Corner { faces, .. } => (faces > 2, faces > 2),
+    };
+    let flags = if one_sided { flags.with(Flags::NORMAL_ONE_SIDED) } else { flags };
+    if unbounded { flags.with(Flags::UNBOUNDED_CURVATURE) } else { flags }
+}
