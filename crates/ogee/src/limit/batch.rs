@@ -2,7 +2,7 @@
 
 use super::bicubic::{self, Jet, Lanes, Net, lanes};
 use super::place::{self, Patch, Tile, power_of_two};
-use super::walk::{MAX_STEPS, Walk, narrow, subtract, wide};
+use super::walk::{Walk, last_step, narrow, subtract, wide};
 use super::{Derivatives, Flags, Samples};
 use crate::math::{Vec3, par, simd};
 use crate::patch::{ChainBasis, Kind, Location, PatchTable, Piece, Tail, Wide, to_corner};
@@ -232,6 +232,7 @@ impl<'a> Worker<'a> {
     /// Samples of a face that is one chain: put into buckets by step and tile, as long as those are few.
     fn chain(&mut self, number: u32, tail: Tail, items: &mut [Item], out: &mut Out<'_>) {
         const BUCKETS: usize = 256;
+        let table = self.batch.table;
         let corner = tail.corner;
         let mut ends = [0u32; BUCKETS + 1];
         self.keyed.clear();
@@ -250,7 +251,7 @@ impl<'a> Worker<'a> {
                 for (item, keyed) in items.iter_mut().zip(same) {
                     *item = keyed.item;
                 }
-                self.piece(Patch::of_step(tail, number, same[0].key, 0), &items[..same.len()], out);
+                self.piece(Patch::of_step(table, tail, number, same[0].key, 0), &items[..same.len()], out);
             }
             self.keyed = keyed;
             return;
@@ -267,7 +268,7 @@ impl<'a> Worker<'a> {
         for key in 0..=largest {
             let (start, end) = (ends[key] as usize, ends[key + 1] as usize);
             if start < end {
-                self.piece(Patch::of_step(tail, number, key as u64, 0), &items[start..end], out);
+                self.piece(Patch::of_step(table, tail, number, key as u64, 0), &items[start..end], out);
             }
         }
     }
@@ -355,7 +356,7 @@ impl<'a> Worker<'a> {
         let mut normal = None;
         if what > Derivatives::None {
             tangents = masks.unwrap_or_else(|| {
-                self.walk.go(table, points, number, tail, MAX_STEPS);
+                self.walk.go(table, points, number, tail, last_step(basis));
                 self.walk.tile(basis, 1, &mut self.group.net);
                 let jet = bicubic::one::<1>(&self.group.net, 0.0, 0.0);
                 [jet[1], jet[2]].map(|tangent| narrow(tangent).normalized().unwrap_or(Vec3::ZERO))

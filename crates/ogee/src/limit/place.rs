@@ -2,7 +2,7 @@
 //!
 //! A patch has a *key*, a number: samples of one patch have the same key, and sorted keys go down a chain step by step.
 
-use super::walk::MAX_STEPS;
+use super::walk::last_step;
 use crate::patch::{Location, PatchTable, Piece, Tail, to_corner};
 
 /// A patch, or an extraordinary vertex itself.
@@ -66,16 +66,16 @@ impl<'a> Patch<'a> {
         if head >> (DEPTH_BITS + 30) == 0 {
             return Patch::Leaf { sources: table.leaf(number), depth };
         }
-        Patch::of_step(table.tail(number), number, key & ((1 << CHAIN_BITS) - 1), depth)
+        Patch::of_step(table, table.tail(number), number, key & ((1 << CHAIN_BITS) - 1), depth)
     }
 
     /// The patch of a tail, from the part of the key that [`in_chain`] gives.
-    pub(super) fn of_step(tail: Tail, number: u32, low: u64, depth: i32) -> Patch<'a> {
+    pub(super) fn of_step(table: &PatchTable, tail: Tail, number: u32, low: u64, depth: i32) -> Patch<'a> {
         let (step, tile) = ((low >> 2) as i32, (low & 3) as usize);
         if step == 0 {
             return Patch::Vertex { tail, number };
         }
-        let beyond = (step - MAX_STEPS).max(0);
+        let beyond = (step - last_step(table.basis(tail))).max(0);
         Patch::Tile(Tile { tail, number, step: step - beyond, beyond, tile, depth })
     }
 

@@ -5,11 +5,24 @@
 //! their relative accuracy at every depth.
 
 use crate::math::Vec3;
-use crate::patch::{ChainBasis, PatchTable, Tail, Wide};
+use crate::patch::{ChainBasis, Kind, PatchTable, Tail, Wide};
 
 /// Steps that are taken. Below them the surface is taken for its own limit shape, scaled: parameters of 1e-120 and less.
 /// Further down the squares of what is left of a ring of valence 3 would be no numbers any more.
-pub(super) const MAX_STEPS: i32 = 400;
+const MAX_STEPS: i32 = 400;
+
+/// Steps that are taken where a ring shrinks faster one way than the other: beside creases, at darts and cones. After
+/// more its tangents would be parallel, to rounding.
+const FEW_STEPS: i32 = 64;
+
+/// How many steps are taken in a chain.
+#[inline]
+pub(super) fn last_step(basis: &ChainBasis) -> i32 {
+    match basis.kind {
+        Kind::Smooth { valence: 3.. } => MAX_STEPS,
+        _ => FEW_STEPS,
+    }
+}
 
 /// From this step on the limit is subtracted in every step. Before, rings are too large for it to matter.
 const RECENTRE_FROM: i32 = 4;
