@@ -1,4 +1,5 @@
-//! Chores of the workspace. `models [DIR]` writes the shipped cages, `bench` times whole commands.
+//! Chores of the workspace. `models [DIR]` writes the shipped cages, `bench` times whole commands, `bench limit`
+//! evaluation beside other programs; `bench-worker` is a part of that.
 
 mod bench;
 mod models;
@@ -19,9 +20,14 @@ fn main() -> Result<()> {
             Ok(())
         }
         ["bench"] => {
-            print!("{}", bench::table()?);
+            print!("{}", bench::commands::table()?);
             Ok(())
         }
-        _ => bail!("usage: cargo xtask models [DIR] | bench"),
+        ["bench", "limit"] => bench::limit::compare(&mut std::io::stdout()),
+        ["bench-worker", ref rest @ ..] => {
+            println!("{}", bench::worker::run(rest)?);
+            Ok(())
+        }
+        _ => bail!("usage: cargo xtask models [DIR] | bench [limit]"),
     }
 }

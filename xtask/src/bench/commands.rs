@@ -1,6 +1,4 @@
 //! `cargo xtask bench`: whole commands as a user runs them, on cages of growing size.
-//!
-//! Benchmarks of single functions are `cargo bench -p ogee`.
 
 use std::path::Path;
 use std::process::Command;

@@ -1,0 +1,215 @@
+//! `cargo xtask bench-worker`: our side of the comparison, with the tasks, arguments and answers of
+//! `bench/peers/opensubdiv_limit.cpp`. A process of its own for every measurement, as the peers have.
+
+use std::path::Path;
+use std::time::Instant;
+
+use anyhow::{Context, Result, bail};
+use ogee::{ControlMesh, Derivatives, FaceId, Level, LimitSurface, Location, PatchTable, Samples, Vec3};
+use serde_json::{Value, json};
+
+use super::exchange::{self, Sample};
+
+/// Face by face, results go round in a buffer of this many points: a user takes them away as they come.
+const BLOCK: usize = 4096;
+
+/// The same where threads share the work: each gets its part of it.
+const SHARED_BLOCK: usize = 65_536;
+
+/// Does one task and answers with one line of JSON.
+///
+/// The arguments are `setup ours -1 CAGE`, `faces ours -1 CAGE ORDER SIDE`, `scattered ours -1 CAGE ORDER SAMPLES` or
+/// `values ours -1 CAGE ORDER SAMPLES OUTPUT`; with `ours-single` samples are asked for one at a time. The level of
+/// isolation is there for the peers, which have one.
+pub(crate) fn run(arguments: &[&str]) -> Result<Value> {
+    let [task, side, _, cage, rest @ ..] = arguments else { bail!("too few arguments") };
+    let mesh = exchange::read_cage(Path::new(cage))?;
+    match (*task, rest) {
+        ("setup", []) => set_up(&mesh),
+        ("faces", [order, side]) => by_faces(&mesh, derivatives(order)?, side.parse()?),
+        ("scattered", [order, samples]) => {
+            let samples = exchange::read_samples(Path::new(samples))?;
+            if *side == "ours-single" {
+                return one_by_one(&mesh, &samples);
+            }
+            Ok(by_list(&mesh, derivatives(order)?, &samples)?.0)
+        }
+        ("values", [order, samples, output]) => {
+            let samples = exchange::read_samples(Path::new(samples))?;
+            let (report, results) = by_list(&mesh, derivatives(order)?, &samples)?;
+            let values = results.position.iter().zip(&results.du).zip(&results.dv);
+            let vectors = values.flat_map(|((&position, &du), &dv)| [position, du, dv]);
+            exchange::write_numbers(Path::new(output), vectors.flat_map(<[f64; 3]>::from))?;
+            Ok(report)
+        }
+        _ => bail!("no such task: {task}"),
+    }
+}
+
+fn derivatives(order: &str) -> Result<Derivatives> {
+    match order {
+        "1" => Ok(Derivatives::First),
+        "2" => Ok(Derivatives::Second),
+        _ => bail!("derivatives of order 1 or 2, not {order}"),
+    }
+}
+
+fn set_up(mesh: &ControlMesh) -> Result<Value> {
+    let before = resident_bytes()?;
+    let start = Instant::now();
+    let level = Level::new(mesh)?;
+    let connect_seconds = start.elapsed().as_secs_f64();
+    let connected = resident_bytes()?;
+    let start = Instant::now();
+    let table = PatchTable::new(&level);
+    let surface = LimitSurface::new(&table, &mesh.points);
+    let prepare_seconds = start.elapsed().as_secs_f64();
+    let prepared = resident_bytes()?;
+    // Held until memory has been looked at.
+    drop(surface);
+    Ok(json!({
+        "connect_seconds": connect_seconds, "prepare_seconds": prepare_seconds,
+        "connect_bytes": connected - before, "prepare_bytes": prepared - connected,
+    }))
+}
+
+/// What the process holds in memory.
+fn resident_bytes() -> Result<f64> {
+    let status = std::fs::read_to_string("/proc/self/status")?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:")).context("no resident size")?;
+    Ok(line.trim_end_matches("kB").trim().parse::<f64>()? * 1024.0)
+}
+
+/// All faces in order, `side` x `side` cell centres in each, preparation included.
+fn by_faces(mesh: &ControlMesh, what: Derivatives, side: u32) -> Result<Value> {
+    let level = Level::new(mesh)?;
+    let centre = |i: u32| (f64::from(i) + 0.5) / f64::from(side);
+    let size = if threads() == 1 { BLOCK } else { SHARED_BLOCK };
+    let mut block: Vec<Location> = Vec::with_capacity(size);
+    let mut results = Samples::default();
+    let mut pass = |take: &mut dyn FnMut(&Samples)| -> Result<[f64; 2]> {
+        let start = Instant::now();
+        let table = PatchTable::new(&level);
+        let surface = LimitSurface::new(&table, &mesh.points);
+        let prepared = start.elapsed();
+        block.clear();
+        for face in (0..mesh.faces.len() as u32).map(FaceId) {
+            for j in 0..side {
+                for i in 0..side {
+                    block.push(table.locate(face, None, centre(i), centre(j))?);
+                    if block.len() == size {
+                        surface.eval_into(&block, what, &mut results);
+                        take(&results);
+                        block.clear();
+                    }
+                }
+            }
+        }
+        surface.eval_into(&block, what, &mut results);
+        take(&results);
+        Ok([prepared.as_secs_f64(), start.elapsed().as_secs_f64()])
+    };
+    let mut checksum = Checksum::default();
+    pass(&mut |results| checksum.add(results))?;
+    let seconds = pass(&mut |results| {
+        std::hint::black_box(results);
+    })?;
+    Ok(report(mesh.faces.len() * (side * side) as usize, seconds, &checksum))
+}
+
+/// A list of samples, into memory that has been written to before. Checking the addresses is part of the time.
+fn by_list(mesh: &ControlMesh, what: Derivatives, samples: &[Sample]) -> Result<(Value, Samples)> {
+    let level = Level::new(mesh)?;
+    let start = Instant::now();
+    let table = PatchTable::new(&level);
+    let surface = LimitSurface::new(&table, &mesh.points);
+    let prepared = start.elapsed().as_secs_f64();
+    let mut places: Vec<Location> = Vec::with_capacity(samples.len());
+    let mut results = Samples::default();
+    let mut seconds = 0.0;
+    for _ in 0..2 {
+        let start = Instant::now();
+        places.clear();
+        for sample in samples {
+            places.push(table.locate(FaceId(sample.face), sample.corner, sample.u, sample.v)?);
+        }
+        surface.eval_into(&places, what, &mut results);
+        seconds = start.elapsed().as_secs_f64();
+    }
+    let mut checksum = Checksum::default();
+    checksum.add(&results);
+    Ok((report(samples.len(), [prepared, seconds], &checksum), results))
+}
+
+/// The same with one call a sample, which gives first derivatives and normals.
+fn one_by_one(mesh: &ControlMesh, samples: &[Sample]) -> Result<Value> {
+    let level = Level::new(mesh)?;
+    let start = Instant::now();
+    let table = PatchTable::new(&level);
+    let surface = LimitSurface::new(&table, &mesh.points);
+    let prepared = start.elapsed().as_secs_f64();
+    let mut results = Vec::with_capacity(samples.len());
+    let mut seconds = 0.0;
+    for _ in 0..2 {
+        let start = Instant::now();
+        results.clear();
+        for sample in samples {
+            results.push(surface.eval(table.locate(
+                FaceId(sample.face),
+                sample.corner,
+                sample.u,
+                sample.v,
+            )?));
+        }
+        seconds = start.elapsed().as_secs_f64();
+    }
+    let mut checksum = Checksum::default();
+    for point in &results {
+        for vector in [point.position, point.du, point.dv, point.normal] {
+            checksum.add_vector(vector);
+        }
+    }
+    Ok(report(samples.len(), [prepared, seconds], &checksum))
+}
+
+fn threads() -> usize {
+    rayon::current_num_threads()
+}
+
+fn report(points: usize, [prepared, seconds]: [f64; 2], checksum: &Checksum) -> Value {
+    let checksum = checksum.0.to_string();
+    json!({ "points": points, "seconds": seconds, "prepare_seconds": prepared, "checksum": checksum })
+}
+
+/// The bits of all results: equal where two runs are equal.
+struct Checksum(u64);
+
+impl Default for Checksum {
+    fn default() -> Checksum {
+        Checksum(14_695_981_039_346_656_037)
+    }
+}
+
+impl Checksum {
+    /// Point by point, so that the sizes of blocks do not matter.
+    fn add(&mut self, samples: &Samples) {
+        let lists = [
+            &samples.position,
+            &samples.du,
+            &samples.dv,
+            &samples.normal,
+            &samples.duu,
+            &samples.duv,
+            &samples.dvv,
+        ];
+        for i in 0..samples.position.len() {
+            lists.iter().filter_map(|list| list.get(i)).for_each(|&vector| self.add_vector(vector));
+        }
+    }
+
+    fn add_vector(&mut self, vector: Vec3) {
+        for number in <[f64; 3]>::from(vector) {
+            self.0 = (self.0 ^ number.to_bits()).wrapping_mul(1_099_511_628_211);
+        }
+    }
+}
