@@ -1,13 +1,15 @@
 //! Many points: samples sorted by piece, four at a time.
 
+use super::bicubic::{self, Net};
 use super::corner::at_corner;
 use super::evaluate::{Group, Item, Source, Together};
 use super::out::Out;
 use super::place::{self, Patch, Tile, power_of_two};
-use super::walk::{Walk, subtract, wide};
+use super::walk::{Walk, wide};
 use super::{Derivatives, Flags};
+use crate::math::simd::{self, Four};
 use crate::math::{Vec3, par};
-use crate::patch::{Location, PatchTable, Piece, Tail};
+use crate::patch::{Location, PatchTable, Piece, Tail, Wide};
 
 /// Samples that one task works through, and sorts where that helps.
 const CHUNK: usize = 8192;
@@ -95,6 +97,29 @@ impl Ahead {
 struct Keyed {
     key: u64,
     item: Item,
+}
+
+/// The patch of a leaf, for [`simd::dispatch`].
+struct Leaf<'a> {
+    points: &'a [Vec3],
+    sources: &'a [u32; 16],
+    base: Wide,
+    net: &'a mut Net,
+}
+
+impl simd::Kernel for Leaf<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Four>(self) {
+        let Leaf { points, sources, base, net } = self;
+        let base = V::load(&base);
+        let mut control = [base; 16];
+        for k in 0..16 {
+            control[k] = V::load(&wide(points[sources[k] as usize])).minus(base);
+        }
+        bicubic::coefficients(&control, net);
+    }
 }
 
 /// Evaluates samples one run after another; keeps its memory.
@@ -245,9 +270,7 @@ impl<'a> Worker<'a> {
     fn leaf(&mut self, sources: &[u32; 16], depth: i32) {
         // Relative to a point of its own, so that parts far from the origin lose nothing.
         let base = wide(self.batch.points[sources[5] as usize]);
-        for (point, &source) in self.group.net.iter_mut().zip(sources) {
-            *point = subtract(wide(self.batch.points[source as usize]), base);
-        }
+        simd::dispatch(Leaf { points: self.batch.points, sources, base, net: &mut self.group.net });
         let scale = power_of_two(depth);
         self.group.base = base;
         self.group.scales = [1.0, scale, scale * scale];

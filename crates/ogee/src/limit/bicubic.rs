@@ -1,152 +1,177 @@
-//! The uniform bicubic B-spline: sixteen points, a position and its derivatives.
+//! One bicubic patch: sixteen coefficients of powers of its parameters, a position and its derivatives.
 //!
-//! Stated twice, for one sample with the coordinates in lanes and for four samples in lanes. Both do the same operations
-//! in the same order, so a lone point is a point of a batch bit for bit (`batches_are_lone_points`).
+//! A net of control points becomes coefficients once, and every sample is then a few nested products.
+//!
+//! Here are no closures: they would be compiled for plain code, whatever calls them ([`crate::math::simd`]).
 
+use crate::math::simd::Four;
 use crate::patch::Wide;
 
-/// Sixteen points, `i + 4 j`, `i` along the first parameter.
+/// Sixteen points or coefficients, `i + 4 j`, `i` along the first parameter.
 pub(super) type Net = [Wide; 16];
-
-/// One number for each sample.
-pub(super) type Lanes<const L: usize> = [f64; L];
-
-/// `std::array::from_fn` is not always inlined, which here would cost more than the arithmetic.
-#[inline(always)]
-pub(super) fn lanes<const L: usize>(f: impl Fn(usize) -> f64) -> Lanes<L> {
-    let mut out = [0.0; L];
-    for (l, out) in out.iter_mut().enumerate() {
-        *out = f(l);
-    }
-    out
-}
-
-/// The four cubic B-splines over a cell at `t` in `[0, 1]`.
-#[inline(always)]
-pub(super) fn values<const L: usize>(t: Lanes<L>) -> [Lanes<L>; 4] {
-    const SIXTH: f64 = 1.0 / 6.0;
-    let s: Lanes<L> = lanes(|l| 1.0 - t[l]);
-    [
-        lanes(|l| s[l] * s[l] * s[l] * SIXTH),
-        lanes(|l| ((3.0 * t[l] - 6.0) * t[l] * t[l] + 4.0) * SIXTH),
-        lanes(|l| ((3.0 * s[l] - 6.0) * s[l] * s[l] + 4.0) * SIXTH),
-        lanes(|l| t[l] * t[l] * t[l] * SIXTH),
-    ]
-}
-
-/// Their first derivatives.
-#[inline(always)]
-pub(super) fn slopes<const L: usize>(t: Lanes<L>) -> [Lanes<L>; 4] {
-    let s: Lanes<L> = lanes(|l| 1.0 - t[l]);
-    [
-        lanes(|l| -0.5 * s[l] * s[l]),
-        lanes(|l| (1.5 * t[l] - 2.0) * t[l]),
-        lanes(|l| (2.0 - 1.5 * s[l]) * s[l]),
-        lanes(|l| 0.5 * t[l] * t[l]),
-    ]
-}
-
-/// Their second derivatives.
-#[inline(always)]
-pub(super) fn bends<const L: usize>(t: Lanes<L>) -> [Lanes<L>; 4] {
-    [lanes(|l| 1.0 - t[l]), lanes(|l| 3.0 * t[l] - 2.0), lanes(|l| 1.0 - 3.0 * t[l]), lanes(|l| t[l])]
-}
 
 /// The first parts of position, `du`, `dv`, `duu`, `duv`, `dvv`: one, three or six.
 pub(super) type Jet<T, const PARTS: usize> = [T; PARTS];
 
-/// One sample: coordinates in lanes.
+/// Coefficients of `1, t, t^2, t^3` of the uniform cubic B-spline over the inner cell of four points.
 #[inline(always)]
-pub(super) fn one<const PARTS: usize>(net: &Net, x: f64, y: f64) -> Jet<Wide, PARTS> {
-    let (bx, by) = (values([x]), values([y]));
-    let (dx, dy) = (slopes([x]), slopes([y]));
-    let (ddx, ddy) = (bends([x]), bends([y]));
-    let along = |basis: &[[f64; 1]; 4], j: usize| -> Wide {
-        let p = &net[4 * j..4 * j + 4];
-        lanes(|c| {
-            basis[0][0] * p[0][c] + basis[1][0] * p[1][c] + basis[2][0] * p[2][c] + basis[3][0] * p[3][c]
-        })
-    };
-    let across = |basis: &[[f64; 1]; 4], rows: &[Wide; 4]| -> Wide {
-        lanes(|c| {
-            basis[0][0] * rows[0][c]
-                + basis[1][0] * rows[1][c]
-                + basis[2][0] * rows[2][c]
-                + basis[3][0] * rows[3][c]
-        })
-    };
-    let mut jet = [[0.0; 4]; PARTS];
-    let mut rows = [[0.0; 4]; 4];
-    for (j, row) in rows.iter_mut().enumerate() {
-        *row = along(&bx, j);
-    }
-    jet[0] = across(&by, &rows);
-    if PARTS > 1 {
-        let mut slope_rows = [[0.0; 4]; 4];
-        for (j, row) in slope_rows.iter_mut().enumerate() {
-            *row = along(&dx, j);
+fn powers<V: Four>([a, b, c, d]: [V; 4]) -> [V; 4] {
+    let (half, sixth) = (V::splat(1.0 / 2.0), V::splat(1.0 / 6.0));
+    let ends = a.plus(c);
+    let inner = b.minus(c);
+    [
+        ends.plus(V::splat(4.0).times(b)).times(sixth),
+        c.minus(a).times(half),
+        ends.times(half).minus(b),
+        d.minus(a).plus(V::splat(3.0).times(inner)).times(sixth),
+    ]
+}
+
+/// Coefficients of `u^i v^j` of the uniform bicubic B-spline over the inner cell of a net.
+#[inline(always)]
+pub(super) fn coefficients<V: Four>(net: &[V; 16], out: &mut Net) {
+    let mut rows = [V::splat(0.0); 16];
+    for j in 0..4 {
+        let row = powers([net[4 * j], net[4 * j + 1], net[4 * j + 2], net[4 * j + 3]]);
+        for i in 0..4 {
+            rows[4 * j + i] = row[i];
         }
-        jet[1] = across(&by, &slope_rows);
-        jet[2] = across(&dy, &rows);
-        if PARTS > 3 {
-            let mut bend_rows = [[0.0; 4]; 4];
-            for (j, row) in bend_rows.iter_mut().enumerate() {
-                *row = along(&ddx, j);
-            }
-            jet[3] = across(&by, &bend_rows);
-            jet[4] = across(&dy, &slope_rows);
-            jet[5] = across(&ddy, &rows);
+    }
+    for i in 0..4 {
+        let column = powers([rows[i], rows[4 + i], rows[8 + i], rows[12 + i]]);
+        for j in 0..4 {
+            out[4 * j + i] = column[j].store();
+        }
+    }
+}
+
+/// `a t + b`.
+#[inline(always)]
+fn step<V: Four>(a: V, t: V, b: V) -> V {
+    a.times(t).plus(b)
+}
+
+/// A cubic, its slope, and half its second derivative, by nested products; what is not wanted is worth nothing.
+#[inline(always)]
+fn nested<const ORDER: usize, V: Four>(c: [V; 4], t: V) -> [V; 3] {
+    let mut value = step(c[3], t, c[2]);
+    let (mut slope, mut bend) = (c[3], c[3]);
+    if ORDER > 0 {
+        slope = step(slope, t, value);
+    }
+    value = step(value, t, c[1]);
+    if ORDER > 1 {
+        bend = step(bend, t, slope);
+    }
+    if ORDER > 0 {
+        slope = step(slope, t, value);
+    }
+    [step(value, t, c[0]), slope, bend]
+}
+
+/// All that is wanted of one coordinate of four samples.
+#[inline(always)]
+fn coordinate<const PARTS: usize, V: Four>(net: &Net, axis: usize, u: V, v: V) -> Jet<V, PARTS> {
+    let mut columns = [[V::splat(0.0); 4]; 3];
+    for j in 0..4 {
+        let mut row = [V::splat(0.0); 4];
+        for i in 0..4 {
+            row[i] = V::splat(net[4 * j + i][axis]);
+        }
+        let parts = match PARTS {
+            1 => nested::<0, V>(row, u),
+            3 => nested::<1, V>(row, u),
+            _ => nested::<2, V>(row, u),
+        };
+        for k in 0..3 {
+            columns[k][j] = parts[k];
+        }
+    }
+    let mut jet = [V::splat(0.0); PARTS];
+    match PARTS {
+        1 => jet[0] = nested::<0, V>(columns[0], v)[0],
+        3 => {
+            [jet[0], jet[2], _] = nested::<1, V>(columns[0], v);
+            jet[1] = nested::<0, V>(columns[1], v)[0];
+        }
+        _ => {
+            let twice = V::splat(2.0);
+            let [value, slope, bend] = nested::<2, V>(columns[0], v);
+            (jet[0], jet[2], jet[5]) = (value, slope, bend.times(twice));
+            let [value, slope, _] = nested::<1, V>(columns[1], v);
+            (jet[1], jet[4]) = (value, slope);
+            jet[3] = nested::<0, V>(columns[2], v)[0].times(twice);
         }
     }
     jet
 }
 
-/// Samples in lanes: for each part of the jet its three coordinates.
+/// Four samples: for each part of the jet its three coordinates.
 #[inline(always)]
-pub(super) fn many<const PARTS: usize, const L: usize>(
-    net: &Net,
-    x: Lanes<L>,
-    y: Lanes<L>,
-) -> Jet<[Lanes<L>; 3], PARTS> {
-    let (bx, by) = (values(x), values(y));
-    let mut jet = [[[0.0; L]; 3]; PARTS];
-    let (dx, dy) = if PARTS > 1 { (slopes(x), slopes(y)) } else { ([[0.0; L]; 4], [[0.0; L]; 4]) };
-    let (ddx, ddy) = if PARTS > 3 { (bends(x), bends(y)) } else { ([[0.0; L]; 4], [[0.0; L]; 4]) };
-    for c in 0..3 {
-        let along = |basis: &[Lanes<L>; 4], j: usize| -> Lanes<L> {
-            let p = [net[4 * j][c], net[4 * j + 1][c], net[4 * j + 2][c], net[4 * j + 3][c]];
-            lanes(|l| basis[0][l] * p[0] + basis[1][l] * p[1] + basis[2][l] * p[2] + basis[3][l] * p[3])
-        };
-        let across = |basis: &[Lanes<L>; 4], rows: &[Lanes<L>; 4]| -> Lanes<L> {
-            lanes(|l| {
-                basis[0][l] * rows[0][l]
-                    + basis[1][l] * rows[1][l]
-                    + basis[2][l] * rows[2][l]
-                    + basis[3][l] * rows[3][l]
-            })
-        };
-        let mut rows = [[0.0; L]; 4];
-        for (j, row) in rows.iter_mut().enumerate() {
-            *row = along(&bx, j);
-        }
-        jet[0][c] = across(&by, &rows);
-        if PARTS > 1 {
-            let mut slope_rows = [[0.0; L]; 4];
-            for (j, row) in slope_rows.iter_mut().enumerate() {
-                *row = along(&dx, j);
-            }
-            jet[1][c] = across(&by, &slope_rows);
-            jet[2][c] = across(&dy, &rows);
-            if PARTS > 3 {
-                let mut bend_rows = [[0.0; L]; 4];
-                for (j, row) in bend_rows.iter_mut().enumerate() {
-                    *row = along(&ddx, j);
-                }
-                jet[3][c] = across(&by, &bend_rows);
-                jet[4][c] = across(&dy, &slope_rows);
-                jet[5][c] = across(&ddy, &rows);
-            }
+pub(super) fn four<const PARTS: usize, V: Four>(net: &Net, u: V, v: V) -> Jet<[V; 3], PARTS> {
+    let mut jet = [[V::splat(0.0); 3]; PARTS];
+    // Not unrolled: three coordinates at once want more registers than there are.
+    for axis in 0..std::hint::black_box(3) {
+        let parts = coordinate::<PARTS, V>(net, axis, u, v);
+        for part in 0..PARTS {
+            jet[part][axis] = parts[part];
         }
     }
     jet
+}
+
+/// The four cubic B-splines over a cell at `t`, and their first and second derivatives: weights of control points.
+pub(super) fn basis(t: f64) -> [[f64; 4]; 3] {
+    let s = 1.0 - t;
+    [
+        [s * s * s, (3.0 * t - 6.0) * t * t + 4.0, (3.0 * s - 6.0) * s * s + 4.0, t * t * t].map(|b| b / 6.0),
+        [-s * s, (3.0 * t - 4.0) * t, (4.0 - 3.0 * s) * s, t * t].map(|b| b / 2.0),
+        [s, 3.0 * t - 2.0, 1.0 - 3.0 * t, t],
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::simd;
+
+    fn net() -> Net {
+        std::array::from_fn(|k| {
+            let t = k as f64;
+            [(1.3 * t).sin(), (0.7 * t).cos(), (t * t).sin(), 0.0]
+        })
+    }
+
+    /// Coefficients, then jets.
+    struct Jets(Net, [f64; 4], [f64; 4]);
+
+    impl simd::Kernel for Jets {
+        type Output = (Jet<[Wide; 3], 6>, Jet<[Wide; 3], 3>);
+
+        #[inline(always)]
+        fn run<V: Four>(self) -> Self::Output {
+            let Jets(net, u, v) = self;
+            let mut out = [[0.0; 4]; 16];
+            coefficients(&net.map(|point| V::load(&point)), &mut out);
+            let (u, v) = (V::load(&u), V::load(&v));
+            let stored = |part: [V; 3]| part.map(V::store);
+            (four::<6, V>(&out, u, v).map(stored), four::<3, V>(&out, u, v).map(stored))
+        }
+    }
+
+    #[test]
+    fn coefficients_are_the_spline() {
+        let (u, v) = ([0.0, 1.0, 0.3, 0.51], [0.0, 1.0, 0.7, 0.02]);
+        let (jet, first) = simd::dispatch(Jets(net(), u, v));
+        assert_eq!(first[..], jet[..3]);
+        for l in 0..4 {
+            let (bu, bv) = (basis(u[l]), basis(v[l]));
+            for (part, (i, j)) in [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)].into_iter().enumerate() {
+                for c in 0..3 {
+                    let sum: f64 = (0..16).map(|k| bu[i][k % 4] * bv[j][k / 4] * net()[k][c]).sum();
+                    assert!((sum - jet[part][c][l]).abs() < 1e-14, "{part} at ({}, {})", u[l], v[l]);
+                }
+            }
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! Extraordinary vertices themselves.
 
-use super::evaluate::{at_origin, unit_normal};
+use super::evaluate::{tangents_at_origin, unit_normal};
 use super::walk::{Walk, last_step};
 use super::{Flags, SurfacePoint};
 use crate::math::Vec3;
@@ -23,8 +23,7 @@ pub(super) fn at_corner(
         let mut net = [[0.0; 4]; 16];
         walk.go(table, points, number, tail, last_step(basis));
         walk.tile(basis, 1, 0, &mut net);
-        let [_, along, across] = at_origin(&net);
-        [along, across].map(|tangent| tangent.normalized().unwrap_or(Vec3::ZERO))
+        tangents_at_origin(&net).map(|tangent| tangent.normalized().unwrap_or(Vec3::ZERO))
     });
     let mut normal = unit_normal(tangents[0], tangents[1]);
     // The sharp edges of a reflex corner span the plane the wrong way round.

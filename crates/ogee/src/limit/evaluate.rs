@@ -1,10 +1,13 @@
 //! Samples of one bicubic patch, four at a time.
 
-use super::bicubic::{self, Jet, Lanes, Net, lanes};
+use std::marker::PhantomData;
+
+use super::bicubic::{self, Jet, Net};
 use super::out::Out;
 use super::walk::narrow;
 use super::{Derivatives, Flags};
-use crate::math::{Vec3, simd};
+use crate::math::Vec3;
+use crate::math::simd::{self, Four};
 use crate::patch::{Location, Wide};
 
 /// Samples side by side in the inner loop.
@@ -67,8 +70,9 @@ impl Source for Together<'_> {
 
 /// One bicubic patch, and how what it gives becomes what was asked for.
 pub(super) struct Group {
+    /// Coefficients of powers of its parameters.
     pub(super) net: Net,
-    /// What the net is relative to.
+    /// What they are relative to.
     pub(super) base: Wide,
     /// The scale of position relative to the base, and of first and second derivatives.
     pub(super) scales: [f64; 3],
@@ -88,70 +92,54 @@ impl Group {
 
     #[inline]
     fn parts<const PARTS: usize, S: Source>(&self, source: S, out: &mut Out<'_>) {
-        if source.len() > 1 {
-            return simd::dispatch(Many::<PARTS, S> { group: self, source, out });
-        }
-        let mut jet = [[0.0; 4]; PARTS];
-        simd::dispatch(One { net: &self.net, item: source.get(0), jet: &mut jet });
-        let mut parts = [[[0.0]; 3]; PARTS];
-        for (part, wide) in parts.iter_mut().zip(&jet) {
-            *part = [[wide[0]], [wide[1]], [wide[2]]];
-        }
-        self.write::<PARTS, 1, S>(&source, 0, 1, &parts, out);
+        simd::dispatch(Run::<PARTS, S> { group: self, source, out });
     }
 
-    /// Scales jets, and writes `count` of them: those of the samples from `first` on.
+    /// Scales jets, and writes them.
     #[inline(always)]
-    fn write<const PARTS: usize, const L: usize, S: Source>(
+    fn write<const PARTS: usize, S: Source, V: Four>(
         &self,
-        source: &S,
-        first: usize,
-        count: usize,
-        jet: &Jet<[Lanes<L>; 3], PARTS>,
+        put: &Put<S>,
+        jet: &Jet<[V; 3], PARTS>,
         out: &mut Out<'_>,
     ) {
-        let put = Put { source, first, count };
-        let scaled = |part: &[Lanes<L>; 3], scale: f64| -> [Lanes<L>; 3] {
-            let times = |c: usize| -> Lanes<L> { lanes(|l| part[c][l] * scale) };
-            [times(0), times(1), times(2)]
-        };
         let [position_scale, first_scale, second_scale] = self.scales;
-        let relative = scaled(&jet[0], position_scale);
-        let moved = |c: usize| -> Lanes<L> { lanes(|l| self.base[c] + relative[c][l]) };
-        put.vectors(out.position, &[moved(0), moved(1), moved(2)]);
+        let [x, y, z] = scaled(&jet[0], position_scale);
+        let base = [V::splat(self.base[0]), V::splat(self.base[1]), V::splat(self.base[2])];
+        put.vectors(out.position, [base[0].plus(x), base[1].plus(y), base[2].plus(z)]);
         put.each(out.flags, |_| self.flags);
         if PARTS == 1 {
             return;
         }
-        put.vectors(out.du, &scaled(&jet[1], first_scale));
-        put.vectors(out.dv, &scaled(&jet[2], first_scale));
+        put.vectors(out.du, scaled(&jet[1], first_scale));
+        put.vectors(out.dv, scaled(&jet[2], first_scale));
         let normals = normals(&jet[1], &jet[2]);
-        put.vectors(out.normal, &normals.vectors);
-        if !normals.sure.iter().all(|&sure| sure) {
-            self.doubtful(&put, &jet[1], &jet[2], &normals, out);
+        put.vectors(out.normal, normals.vectors);
+        if normals.sure != [true; LANES] {
+            self.doubtful(put, normals.sure, [stored(&jet[1]), stored(&jet[2])], out);
         }
         if PARTS == 3 {
             return;
         }
-        put.vectors(out.duu, &scaled(&jet[3], second_scale));
-        put.vectors(out.duv, &scaled(&jet[4], second_scale));
-        put.vectors(out.dvv, &scaled(&jet[5], second_scale));
+        put.vectors(out.duu, scaled(&jet[3], second_scale));
+        put.vectors(out.duv, scaled(&jet[4], second_scale));
+        put.vectors(out.dvv, scaled(&jet[5], second_scale));
     }
 
     /// Normals whose squares are too large or small for numbers, or that do not exist.
     #[cold]
-    fn doubtful<const L: usize, S: Source>(
+    #[inline(never)]
+    fn doubtful<S: Source>(
         &self,
-        put: &Put<'_, S>,
-        du: &[Lanes<L>; 3],
-        dv: &[Lanes<L>; 3],
-        normals: &Normals<L>,
+        put: &Put<S>,
+        sure: [bool; LANES],
+        tangents: [[Wide; 3]; 2],
         out: &mut Out<'_>,
     ) {
-        for l in (0..put.count).filter(|&l| !normals.sure[l]) {
-            let index = put.source.get(put.first + l).index as usize;
-            let vector = |part: &[Lanes<L>; 3]| Vec3::new(part[0][l], part[1][l], part[2][l]);
-            let normal = unit_normal(vector(du), vector(dv));
+        for l in (0..put.count).filter(|&l| !sure[l]) {
+            let index = put.indices[l];
+            let [du, dv] = tangents.map(|[x, y, z]| Vec3::new(x[l], y[l], z[l]));
+            let normal = unit_normal(du, dv);
             out.normal[index] = normal.unwrap_or(Vec3::ZERO);
             if normal.is_none() {
                 out.flags[index] = self.flags.with(Flags::NORMAL_UNDEFINED);
@@ -160,107 +148,109 @@ impl Group {
     }
 }
 
-/// Places of results.
-struct Put<'a, S> {
-    source: &'a S,
-    first: usize,
+/// Places of results of up to four samples.
+struct Put<S> {
+    indices: [usize; LANES],
     count: usize,
+    source: PhantomData<S>,
 }
 
-impl<S: Source> Put<'_, S> {
+impl<S: Source> Put<S> {
     #[inline(always)]
-    fn vectors<const L: usize>(&self, out: &mut [Vec3], part: &[Lanes<L>; 3]) {
-        self.each(out, |l| Vec3::new(part[0][l], part[1][l], part[2][l]));
+    fn vectors<V: Four>(&self, out: &mut [Vec3], [x, y, z]: [V; 3]) {
+        let (x, y, z) = (x.store(), y.store(), z.store());
+        self.each(out, |l| Vec3::new(x[l], y[l], z[l]));
     }
 
     #[inline(always)]
     fn each<T>(&self, out: &mut [T], value: impl Fn(usize) -> T) {
-        if S::STRAIGHT {
-            let start = self.source.get(self.first).index as usize;
-            for (l, out) in out[start..start + self.count].iter_mut().enumerate() {
-                *out = value(l);
+        if S::STRAIGHT && self.count == LANES {
+            let start = self.indices[0];
+            let out = &mut out[start..start + LANES];
+            for l in 0..LANES {
+                out[l] = value(l);
+            }
+        } else if self.count == LANES {
+            for l in 0..LANES {
+                out[self.indices[l]] = value(l);
             }
         } else {
             for l in 0..self.count {
-                out[self.source.get(self.first + l).index as usize] = value(l);
+                out[self.indices[l]] = value(l);
             }
         }
     }
 }
 
-/// One sample, for [`simd::dispatch`]. All four lanes go to memory: a compiler that knows the fourth to be idle packs the
-/// other three in ways that cost more.
-struct One<'a, const PARTS: usize> {
-    net: &'a Net,
-    item: Item,
-    jet: &'a mut Jet<Wide, PARTS>,
-}
-
-impl<const PARTS: usize> simd::Kernel for One<'_, PARTS> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self) {
-        *self.jet = bicubic::one(self.net, self.item.u, self.item.v);
-    }
-}
-
-/// Several samples, for [`simd::dispatch`].
-struct Many<'a, 'o, const PARTS: usize, S> {
+/// Samples of one patch, for [`simd::dispatch`].
+struct Run<'a, 'o, const PARTS: usize, S> {
     group: &'a Group,
     source: S,
     out: &'a mut Out<'o>,
 }
 
-impl<const PARTS: usize, S: Source> simd::Kernel for Many<'_, '_, PARTS, S> {
+impl<const PARTS: usize, S: Source> simd::Kernel for Run<'_, '_, PARTS, S> {
     type Output = ();
 
     #[inline(always)]
-    fn run(self) {
-        let Many { group, source, out } = self;
+    fn run<V: Four>(self) {
+        let Run { group, source, out } = self;
         let len = source.len();
-        let mut first = 0;
-        while first + LANES <= len {
-            let u: Lanes<LANES> = lanes(|l| source.get(first + l).u);
-            let v: Lanes<LANES> = lanes(|l| source.get(first + l).v);
-            let jet = bicubic::many::<PARTS, LANES>(&group.net, u, v);
-            group.write::<PARTS, LANES, S>(&source, first, LANES, &jet, out);
-            first += LANES;
-        }
-        if first < len {
-            // The last sample again in lanes that are left over.
-            let at = |l: usize| source.get((first + l).min(len - 1));
-            let (u, v): (Lanes<LANES>, Lanes<LANES>) = (lanes(|l| at(l).u), lanes(|l| at(l).v));
-            let jet = bicubic::many::<PARTS, LANES>(&group.net, u, v);
-            group.write::<PARTS, LANES, S>(&source, first, len - first, &jet, out);
+        for first in (0..len).step_by(LANES) {
+            let count = LANES.min(len - first);
+            // Lanes that are left over take the last sample again.
+            let item = |l: usize| source.get(first + l.min(count - 1));
+            let [a, b, c, d] = [item(0), item(1), item(2), item(3)];
+            let (u, v) = (V::load(&[a.u, b.u, c.u, d.u]), V::load(&[a.v, b.v, c.v, d.v]));
+            let indices = [a.index as usize, b.index as usize, c.index as usize, d.index as usize];
+            let put = Put { indices, count, source: PhantomData::<S> };
+            group.write::<PARTS, S, V>(&put, &bicubic::four::<PARTS, V>(&group.net, u, v), out);
         }
     }
-}
-
-/// Unit normals in lanes, and for each whether its arithmetic is beyond doubt.
-struct Normals<const L: usize> {
-    vectors: [Lanes<L>; 3],
-    sure: [bool; L],
 }
 
 #[inline(always)]
-fn normals<const L: usize>(a: &[Lanes<L>; 3], b: &[Lanes<L>; 3]) -> Normals<L> {
-    let product = |i: usize, j: usize| -> Lanes<L> { lanes(|l| a[i][l] * b[j][l] - a[j][l] * b[i][l]) };
-    let cross = [product(1, 2), product(2, 0), product(0, 1)];
-    let square = |v: &[Lanes<L>; 3]| -> Lanes<L> {
-        lanes(|l| v[0][l] * v[0][l] + v[1][l] * v[1][l] + v[2][l] * v[2][l])
-    };
-    let (length, first, second) = (square(&cross), square(a), square(b));
+fn scaled<V: Four>(part: &[V; 3], scale: f64) -> [V; 3] {
+    let scale = V::splat(scale);
+    [part[0].times(scale), part[1].times(scale), part[2].times(scale)]
+}
+
+#[inline(always)]
+fn square<V: Four>(v: &[V; 3]) -> V {
+    v[0].times(v[0]).plus(v[1].times(v[1])).plus(v[2].times(v[2]))
+}
+
+#[inline(always)]
+fn stored<V: Four>(part: &[V; 3]) -> [Wide; 3] {
+    [part[0].store(), part[1].store(), part[2].store()]
+}
+
+/// Unit normals in lanes, and for each whether its arithmetic is beyond doubt.
+struct Normals<V> {
+    vectors: [V; 3],
+    sure: [bool; LANES],
+}
+
+#[inline(always)]
+fn normals<V: Four>(a: &[V; 3], b: &[V; 3]) -> Normals<V> {
+    let cross = [
+        a[1].times(b[2]).minus(a[2].times(b[1])),
+        a[2].times(b[0]).minus(a[0].times(b[2])),
+        a[0].times(b[1]).minus(a[1].times(b[0])),
+    ];
+    let length = square(&cross);
+    let scale = V::splat(1.0).over(length.root());
+    let vectors = [cross[0].times(scale), cross[1].times(scale), cross[2].times(scale)];
     // Squares of products of derivatives: within these no step has over- or underflown.
-    const RANGE: std::ops::Range<f64> = 1e-200..1e200;
-    let least: Lanes<L> = lanes(|l| PARALLEL * PARALLEL * first[l] * second[l]);
-    let mut sure = [false; L];
-    for (l, sure) in sure.iter_mut().enumerate() {
-        *sure = length[l] > least[l] && RANGE.contains(&length[l]);
+    const LEAST: f64 = 1e-200;
+    const GREATEST: f64 = 1e200;
+    let least = V::splat(PARALLEL * PARALLEL).times(square(a)).times(square(b)).store();
+    let length = length.store();
+    let mut sure = [true; LANES];
+    for l in 0..LANES {
+        sure[l] = (length[l] > least[l]) & (length[l] > LEAST) & (length[l] < GREATEST);
     }
-    let scale: Lanes<L> = lanes(|l| 1.0 / length[l].sqrt());
-    let scaled = |c: usize| -> Lanes<L> { lanes(|l| cross[c][l] * scale[l]) };
-    Normals { vectors: [scaled(0), scaled(1), scaled(2)], sure }
+    Normals { vectors, sure }
 }
 
 /// The unit normal of two tangents of any size; nothing where they are parallel or vanish.
@@ -270,8 +260,8 @@ pub(super) fn unit_normal(a: Vec3, b: Vec3) -> Option<Vec3> {
     if cross.length() > PARALLEL { cross.normalized() } else { None }
 }
 
-/// Position and tangents of a net at its own origin, relative to its base.
-pub(super) fn at_origin(net: &Net) -> [Vec3; 3] {
-    let jet: Jet<Wide, 3> = bicubic::one(net, 0.0, 0.0);
-    [narrow(jet[0]), narrow(jet[1]), narrow(jet[2])]
+/// Tangents of a patch at its own origin.
+pub(super) fn tangents_at_origin(net: &Net) -> [Vec3; 2] {
+    // Coefficients of u and of v.
+    [net[1], net[4]].map(narrow)
 }

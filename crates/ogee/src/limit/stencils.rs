@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::Derivatives;
-use super::bicubic::{bends, slopes, values};
+use super::bicubic::basis;
 use super::place::{Patch, Tile, power_of_two};
 use crate::math::par;
 use crate::patch::{ChainBasis, Location, PatchTable, TURNED, Tail};
@@ -74,8 +74,8 @@ impl Writer<'_> {
 
     /// Weights over the ring of a tail, pulled back step by step.
     fn tile(&mut self, tile: &Tile, x: f64, y: f64) -> Parts<Vec<f64>> {
-        let basis = self.table.basis(tile.tail);
-        let rows = self.rows.entry(tile.tail.kind).or_insert_with(|| basis.all_rows());
+        let chain = self.table.basis(tile.tail);
+        let rows = self.rows.entry(tile.tail.kind).or_insert_with(|| chain.all_rows());
         let wanted = self.count;
         let mut number = 0;
         let mut parts = net_weights(x, y).map(|part| {
@@ -85,19 +85,19 @@ impl Writer<'_> {
             }
             let mut fine = vec![0.0; rows.len()];
             for (&turned, weight) in TURNED[tile.tail.corner as usize].iter().zip(part) {
-                fine[basis.tiles[tile.tile][turned as usize] as usize] += weight;
+                fine[chain.tiles[tile.tile][turned as usize] as usize] += weight;
             }
             for _ in 0..tile.step {
-                fine = pulled_back(basis, rows, &fine, number > 1);
+                fine = pulled_back(chain, rows, &fine, number > 1);
             }
             fine
         });
         let scale = power_of_two(tile.step + tile.depth);
         let mut scales = [1.0, scale, scale * scale];
         if tile.beyond > 0 {
-            let power = |factor: f64| (factor * basis.eigenvalue).powi(tile.beyond);
+            let power = |factor: f64| (factor * chain.eigenvalue).powi(tile.beyond);
             let shrink = power(1.0);
-            let limits = basis.position.iter().chain(std::iter::repeat(&0.0));
+            let limits = chain.position.iter().chain(std::iter::repeat(&0.0));
             for (weight, limit) in parts[0].iter_mut().zip(limits) {
                 *weight = limit + shrink * (*weight - limit);
             }
@@ -127,18 +127,9 @@ fn pulled_back(basis: &ChainBasis, rows: &ChainRows, fine: &[f64], is_derivative
 
 /// Weights of the sixteen points of a net.
 fn net_weights(x: f64, y: f64) -> Parts<[f64; 16]> {
-    let (b, d, dd) = ([values([x]), values([y])], [slopes([x]), slopes([y])], [bends([x]), bends([y])]);
-    let tensor = |along: &[[f64; 1]; 4], across: &[[f64; 1]; 4]| {
-        std::array::from_fn(|point| along[point % 4][0] * across[point / 4][0])
-    };
-    [
-        tensor(&b[0], &b[1]),
-        tensor(&d[0], &b[1]),
-        tensor(&b[0], &d[1]),
-        tensor(&dd[0], &b[1]),
-        tensor(&d[0], &d[1]),
-        tensor(&b[0], &dd[1]),
-    ]
+    let (along, across) = (basis(x), basis(y));
+    [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)]
+        .map(|(i, j)| std::array::from_fn(|point| along[i][point % 4] * across[j][point / 4]))
 }
 
 fn vertex(table: &PatchTable, tail: Tail) -> Parts<Vec<f64>> {

@@ -4,7 +4,9 @@
 //! anywhere else their points would lose a digit for every digit that they move together. So derivatives and normals keep
 //! their relative accuracy at every depth.
 
+use super::bicubic::{self, Net};
 use crate::math::Vec3;
+use crate::math::simd::{self, Four};
 use crate::patch::{ChainBasis, Kind, PatchTable, TURNED, Tail, Wide};
 
 /// Steps that are taken. Below them the surface is taken for its own limit shape, scaled: parameters of 1e-120 and less.
@@ -109,14 +111,12 @@ impl Walk {
         self.base
     }
 
-    /// The net of a tile of this step, in the directions of the piece whose irregular corner is `corner`: tile 0 at
-    /// `(1, 0)` in the frame of that corner, 1 at `(1, 1)`, 2 at `(0, 1)`.
+    /// A tile of this step, in the directions of the piece whose irregular corner is `corner`: tile 0 at `(1, 0)` in the
+    /// frame of that corner, 1 at `(1, 1)`, 2 at `(0, 1)`.
     #[inline]
-    pub(super) fn tile(&self, basis: &ChainBasis, tile: usize, corner: u32, net: &mut [Wide; 16]) {
-        let numbers = &basis.tiles[tile];
-        for (point, &turned) in net.iter_mut().zip(&TURNED[corner as usize]) {
-            *point = self.fine[numbers[turned as usize] as usize];
-        }
+    pub(super) fn tile(&self, basis: &ChainBasis, tile: usize, corner: u32, net: &mut Net) {
+        let turned = &TURNED[corner as usize];
+        simd::dispatch(Tile { fine: &self.fine, numbers: &basis.tiles[tile], turned, net });
     }
 
     /// Limit position of the corner, and two vectors that span the tangent plane where there are masks for them.
@@ -143,6 +143,28 @@ impl Walk {
         (0..basis.kind.faces() as usize).fold(Vec3::ZERO, |sum, i| {
             sum + at(1 + 2 * i).cross(at(2 + 2 * i)) + at(2 + 2 * i).cross(at(3 + 2 * i))
         })
+    }
+}
+
+/// The patch of a tile, for [`simd::dispatch`].
+struct Tile<'a> {
+    fine: &'a [Wide],
+    numbers: &'a [u32; 16],
+    turned: &'a [u8; 16],
+    net: &'a mut Net,
+}
+
+impl simd::Kernel for Tile<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Four>(self) {
+        let Tile { fine, numbers, turned, net } = self;
+        let mut control = [V::splat(0.0); 16];
+        for k in 0..16 {
+            control[k] = V::load(&fine[numbers[usize::from(turned[k] & 15)] as usize]);
+        }
+        bicubic::coefficients(&control, net);
     }
 }
 

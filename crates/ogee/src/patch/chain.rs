@@ -18,7 +18,8 @@
 
 use super::surroundings::{Mirrored, Surroundings};
 use super::{masks, smooth};
-use crate::math::{Vec3, simd};
+use crate::math::Vec3;
+use crate::math::simd::{self, Four};
 use crate::mesh::{Boundary, Creasing, EdgeId, FaceId, FaceList, HalfedgeId, Scheme, Topology, VertexId};
 use crate::rules::masks as rules;
 use crate::rules::{Level, SharpEdge, Sparse};
@@ -136,27 +137,22 @@ impl Sums {
         out
     }
 
-    /// `out[first ..]` becomes the sums over `from`.
+    /// The sums over `from`.
     #[inline(always)]
-    fn apply(&self, from: &[Wide], out: &mut [Wide]) {
+    fn apply<V: Four>(&self, from: &[Wide], out: &mut [Wide]) {
         let (mut group, mut source) = (0, 0);
         for (&end, out) in self.ends.iter().zip(out) {
-            let mut value = [0.0; 4];
+            let mut value = V::splat(0.0);
             for &(weight, last) in &self.groups[group..end as usize] {
-                let mut sum = [0.0; 4];
-                for &from_index in &self.sources[source..last as usize] {
-                    let point = &from[from_index as usize];
-                    for c in 0..4 {
-                        sum[c] += point[c];
-                    }
+                let mut sum = V::splat(0.0);
+                for &point in &self.sources[source..last as usize] {
+                    sum = sum.plus(V::load(&from[point as usize]));
                 }
-                for c in 0..4 {
-                    value[c] += weight * sum[c];
-                }
+                value = value.plus(V::splat(weight).times(sum));
                 source = last as usize;
             }
             group = end as usize;
-            *out = value;
+            *out = value.store();
         }
     }
 }
@@ -498,14 +494,14 @@ impl simd::Kernel for Step<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run(self) {
+    fn run<V: Four>(self) {
         if let Kind::Smooth { valence } = self.basis.kind {
-            return smooth::step(valence as usize, self.ring, self.fine);
+            return smooth::step::<V>(valence as usize, self.ring, self.fine);
         }
         let count = self.basis.kind.ring_count();
         let (ring, face_points) = self.ring.split_at_mut(count);
-        self.basis.face_points.apply(ring, face_points);
-        self.basis.fine.apply(self.ring, self.fine);
+        self.basis.face_points.apply::<V>(ring, face_points);
+        self.basis.fine.apply::<V>(self.ring, self.fine);
     }
 }
 
@@ -523,11 +519,11 @@ mod tests {
                 *point = [(1.3 * t).sin(), (0.7 * t).cos(), (t * t).sin(), 0.0];
             }
             let mut quick = vec![[0.0; 4]; basis.work_count()];
-            smooth::step(valence as usize, &mut ring.clone(), &mut quick);
+            smooth::step::<simd::Plain>(valence as usize, &mut ring.clone(), &mut quick);
             let mut general = vec![[0.0; 4]; basis.work_count()];
             let (points, face_points) = ring.split_at_mut(basis.ring_count());
-            basis.face_points.apply(points, face_points);
-            basis.fine.apply(&ring, &mut general);
+            basis.face_points.apply::<simd::Plain>(points, face_points);
+            basis.fine.apply::<simd::Plain>(&ring, &mut general);
             for (a, b) in quick.iter().zip(&general) {
                 assert!((0..4).all(|c| (a[c] - b[c]).abs() < 1e-15), "valence {valence}: {a:?} {b:?}");
             }
