@@ -105,6 +105,13 @@ impl Walk {
         }
     }
 
+    /// The ring of this step, relative to the base: the surface nearer to the corner than the tiles lies between its
+    /// points, since all masks of a chain are averages.
+    pub(super) fn rest(&self, basis: &ChainBasis) -> &[Wide] {
+        let ring = if self.step == 0 { &self.ring } else { &self.fine };
+        &ring[..basis.ring_count()]
+    }
+
     /// Limit position of the corner, and two vectors that span the tangent plane where there are masks for them.
     pub(super) fn corner(
         &mut self,

@@ -14,4 +14,4 @@ pub(crate) use chain::{ChainBasis, Kind, Wide};
 pub use location::{Location, LocationError, ParametricFace};
 pub(crate) use neighbourhood::{Neighbourhood, with_ring};
 pub use table::{PatchStatistics, PatchTable};
-pub(crate) use tree::{Piece, Tail, to_corner};
+pub(crate) use tree::{Piece, Tail, from_corner, to_corner};

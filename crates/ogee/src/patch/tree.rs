@@ -84,3 +84,14 @@ pub(crate) fn to_corner(r: u32, u: f64, v: f64) -> (f64, f64) {
         _ => (1.0 - v, u),
     }
 }
+
+/// Parameters of a piece from those in the frame of its corner `r`.
+#[inline]
+pub(crate) fn from_corner(r: u32, x: f64, y: f64) -> [f64; 2] {
+    match r {
+        0 => [x, y],
+        1 => [1.0 - y, x],
+        2 => [1.0 - x, 1.0 - y],
+        _ => [y, 1.0 - x],
+    }
+}
