@@ -5,6 +5,7 @@
 //! across the nearest side.
 
 use crate::limit::limit_vertex;
+use crate::math::newton::Foot;
 use crate::math::{Vec3, par};
 use crate::mesh::{FaceId, HalfedgeId};
 use crate::nurbs::{NurbsSurface, SurfaceJet};
@@ -120,55 +121,14 @@ fn corner_frame(k: usize, a: f64, b: f64, m: f64) -> (f64, f64) {
     }
 }
 
-/// Newton's method for the foot of the perpendicular, kept inside the patch; steps that gain nothing are halved.
+/// The point of a patch nearest to a point, from a start.
 fn closest(surface: &NurbsSurface, m: f64, start: (f64, f64), point: Vec3) -> ((f64, f64), f64) {
-    const STEPS: usize = 20;
-    const HALVINGS: usize = 6;
-    let (mut u, mut v) = start;
-    let mut jet = surface.jet(u, v);
-    let mut distance = jet.position.distance(point);
-    for _ in 0..STEPS {
-        let (du, dv) = step(&jet, jet.position - point, (u, v), m);
-        let mut scale = 1.0;
-        let mut gained = false;
-        for _ in 0..HALVINGS {
-            let (next_u, next_v) = ((u + scale * du).clamp(0.0, m), (v + scale * dv).clamp(0.0, m));
-            let next = surface.jet(next_u, next_v);
-            let next_distance = next.position.distance(point);
-            if next_distance < distance {
-                // The last digits of a distance do not matter here.
-                gained = next_distance < distance * (1.0 - 1e-6);
-                (u, v, jet, distance) = (next_u, next_v, next, next_distance);
-                break;
-            }
-            scale /= 2.0;
-        }
-        if !gained {
-            break;
-        }
-    }
-    ((u, v), distance)
-}
-
-/// A step towards the foot of the perpendicular: Newton's where the distance is convex, else Gauss and Newton's. Where
-/// it would leave the patch, the parameter across that side is held.
-fn step(jet: &SurfaceJet, offset: Vec3, (u, v): (f64, f64), m: f64) -> (f64, f64) {
-    let (gu, gv) = (offset.dot(jet.du), offset.dot(jet.dv));
-    let (e, f, g) = (jet.du.dot(jet.du), jet.du.dot(jet.dv), jet.dv.dot(jet.dv));
-    let full = (e + offset.dot(jet.duu), f + offset.dot(jet.duv), g + offset.dot(jet.dvv));
-    let (a, b, c) = if full.0 * full.2 > full.1 * full.1 && full.0 > 0.0 { full } else { (e, f, g) };
-    let determinant = a * c - b * b;
-    if determinant <= 0.0 {
-        return (0.0, 0.0);
-    }
-    let (mut du, mut dv) = (-(c * gu - b * gv) / determinant, -(a * gv - b * gu) / determinant);
-    if u + du < 0.0 || u + du > m {
-        let held = (u + du).clamp(0.0, m) - u;
-        (du, dv) = (held, -(gv + b * held) / c);
-    }
-    if v + dv < 0.0 || v + dv > m {
-        let held = (v + dv).clamp(0.0, m) - v;
-        (du, dv) = (-(gu + b * held) / a, held);
-    }
-    (du, dv)
+    // The last digits of a distance do not matter here.
+    const WORTH: f64 = 1e-6;
+    let foot = Foot::from_start([start.0, start.1], &[[0.0, m]; 2], WORTH, |[u, v]| {
+        let jet = surface.jet(u, v);
+        SurfaceJet { position: jet.position - point, ..jet }
+    });
+    let [u, v] = foot.parameters;
+    ((u, v), foot.distance)
 }

@@ -4,7 +4,8 @@
 //!
 //! Here are no closures: they would be compiled for plain code, whatever calls them ([`crate::math::simd`]).
 
-use crate::math::simd::Four;
+use crate::math::Vec3;
+use crate::math::simd::{Four, Plain};
 use crate::patch::Wide;
 
 /// Sixteen points or coefficients, `i + 4 j`, `i` along the first parameter.
@@ -118,6 +119,19 @@ pub(super) fn four<const PARTS: usize, V: Four>(net: &Net, u: V, v: V) -> Jet<[V
         }
     }
     jet
+}
+
+/// [`coefficients`] in plain code.
+pub(super) fn coefficients_of(net: &[Wide; 16]) -> Net {
+    let mut out = [[0.0; 4]; 16];
+    coefficients(&net.map(|point| Plain::load(&point)), &mut out);
+    out
+}
+
+/// Position, `du`, `dv`, `duu`, `duv`, `dvv` of one sample, in plain code.
+pub(super) fn single(net: &Net, u: f64, v: f64) -> [Vec3; 6] {
+    let jet = four::<6, Plain>(net, Plain::splat(u), Plain::splat(v));
+    jet.map(|[x, y, z]| Vec3::new(x.store()[0], y.store()[0], z.store()[0]))
 }
 
 /// The four cubic B-splines over a cell at `t`, and their first and second derivatives: weights of control points.

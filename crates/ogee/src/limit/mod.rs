@@ -1,7 +1,9 @@
 //! The limit surface: where refinement leads.
 
 mod batch;
+mod bernstein;
 mod bicubic;
+mod closest;
 mod corner;
 mod evaluate;
 mod out;
@@ -12,6 +14,7 @@ mod surface;
 mod vertices;
 mod walk;
 
+pub use closest::{Closest, ClosestPoints};
 pub use point::{Derivatives, Flags, LimitJet, Samples, SurfacePoint};
 pub use surface::LimitSurface;
 pub(crate) use vertices::limit_vertex;

@@ -44,6 +44,11 @@ impl<'a> LimitSurface<'a> {
         self.table
     }
 
+    /// The cage's points, then those of the table.
+    pub(super) fn points(&self) -> &[Vec3] {
+        &self.points
+    }
+
     /// Position, tangents and normal. Costs some dozen nanoseconds, and some dozen more for every step into the chain
     /// of an extraordinary vertex.
     ///

@@ -119,6 +119,18 @@ impl Walk {
         simd::dispatch(Tile { fine: &self.fine, numbers: &basis.tiles[tile], turned, net });
     }
 
+    /// The control points of a tile of this step in the frame of the irregular corner, relative to the base.
+    pub(super) fn control_net(&self, basis: &ChainBasis, tile: usize) -> [Wide; 16] {
+        basis.tiles[tile].map(|number| self.fine[number as usize])
+    }
+
+    /// The ring of this step, relative to the base: the surface nearer to the corner than the tiles lies between its
+    /// points, since all masks of a chain are averages.
+    pub(super) fn rest(&self, basis: &ChainBasis) -> &[Wide] {
+        let ring = if self.step == 0 { &self.ring } else { &self.fine };
+        &ring[..basis.ring_count()]
+    }
+
     /// Limit position of the corner, and two vectors that span the tangent plane where there are masks for them.
     pub(super) fn corner(
         &mut self,

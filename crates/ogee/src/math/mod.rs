@@ -2,10 +2,12 @@
 
 pub(crate) mod par;
 
+pub(crate) mod bounds;
 pub(crate) mod circulant;
 mod grid;
 mod interpolate;
 mod jet;
+pub(crate) mod newton;
 pub(crate) mod simd;
 pub(crate) mod sparse;
 mod vec3;
