@@ -268,7 +268,8 @@ mod tests {
         let [below, above] = square.halves(false);
         for n in 0..36 {
             let [s, t] = [f64::from(n % 6) / 5.0, f64::from(n / 6) / 5.0];
-            let wanted = |u, v| narrow(bicubic::one::<0>(&net(), u, v)[0]).length().powi(2);
+            let patch = bicubic::coefficients_of(&net());
+            let wanted = |u, v| bicubic::single(&patch, u, v)[0].length().powi(2);
             let pairs = [
                 (value(&square, [s, t]), wanted(s, t)),
                 (value(&left, [s, t]), wanted(0.5 * s, t)),
