@@ -68,10 +68,13 @@ impl Ahead {
     #[inline(always)]
     fn look(&mut self, first: usize, at: usize, count: usize, root: impl Fn(usize) -> u32, batch: Batch<'_>) {
         if at - first > Ahead::LONG {
-            // The processor sees long runs coming; the face that begins after this one is all it may miss.
+            // In long runs it is enough to look one run ahead, and two for what leads there.
             self.done = [at; 3];
-            if at < count {
-                batch.table.prefetch_points(root(at), batch.points);
+            let length = at - first;
+            for (stage, i) in [at + 2 * length, at + length, at].into_iter().enumerate() {
+                if i < count {
+                    ask(stage, root(i), batch);
+                }
             }
             return;
         }
@@ -81,14 +84,20 @@ impl Ahead {
                 if i > 0 && root(i) == root(i - 1) {
                     continue;
                 }
-                match stage {
-                    0 => batch.table.prefetch_root(root(i)),
-                    1 => batch.table.prefetch_points(root(i), batch.points),
-                    _ => batch.table.prefetch_ring(root(i), batch.points),
-                }
+                ask(stage, root(i), batch);
             }
             self.done[stage] = end;
         }
+    }
+}
+
+/// Asks for a parametric face, for its points or its ring's numbers, or for its ring's points.
+#[inline(always)]
+fn ask(stage: usize, root: u32, Batch { table, points, .. }: Batch<'_>) {
+    match stage {
+        0 => table.prefetch_root(root),
+        1 => table.prefetch_points(root, points),
+        _ => table.prefetch_ring(root, points),
     }
 }
 
@@ -198,63 +207,74 @@ impl<'a> Worker<'a> {
 
     /// Samples of a face that is one chain: put into buckets by step and tile, as long as those are few.
     fn chain(&mut self, number: u32, tail: Tail, items: &mut [Item], out: &mut Out<'_>) {
-        const BUCKETS: usize = 256;
-        let table = self.batch.table;
-        let mut ends = [0u32; BUCKETS + 1];
-        self.keyed.clear();
+        const BUCKETS: usize = 64;
+        let mut starts = [0u16; BUCKETS + 2];
         let mut largest = 0;
-        for &Item { u, v, index } in items.iter() {
+        self.keyed.clear();
+        self.keyed.extend(items.iter().map(|&Item { u, v, index }| {
             let (key, u, v) = place::in_chain(tail.corner, u, v);
             largest = largest.max(key as usize);
-            ends[(key as usize).min(BUCKETS - 1) + 1] += 1;
-            self.keyed.push(Keyed { key, item: Item { u, v, index } });
-        }
+            starts[(key as usize).min(BUCKETS - 1) + 2] += 1;
+            Keyed { key, item: Item { u, v, index } }
+        }));
+        let keyed = std::mem::take(&mut self.keyed);
         if largest >= BUCKETS {
-            self.keyed.sort_unstable_by_key(|keyed| (keyed.key, keyed.item.index));
-            let keyed = std::mem::take(&mut self.keyed);
-            for same in keyed.chunk_by(|a, b| a.key == b.key) {
-                for (item, keyed) in items.iter_mut().zip(same) {
-                    *item = keyed.item;
-                }
-                self.piece(Patch::of_step(table, tail, number, same[0].key, 0), &items[..same.len()], out);
-            }
-            self.keyed = keyed;
+            self.sorted_keys(keyed, items, out, |table, key| Patch::of_step(table, tail, number, key, 0));
             return;
         }
+        // From counts to starts; filling a bucket moves its start to its end, which is the start of the next.
         for key in 0..=largest {
-            ends[key + 1] += ends[key];
+            starts[key + 2] += starts[key + 1];
         }
-        let mut next = ends;
-        for keyed in &self.keyed {
-            let slot = &mut next[keyed.key as usize];
-            items[*slot as usize] = keyed.item;
+        for keyed in &keyed {
+            let slot = &mut starts[keyed.key as usize + 1];
+            items[usize::from(*slot)] = keyed.item;
             *slot += 1;
         }
+        self.keyed = keyed;
         for key in 0..=largest {
-            let (start, end) = (ends[key] as usize, ends[key + 1] as usize);
-            if start < end {
-                self.piece(Patch::of_step(table, tail, number, key as u64, 0), &items[start..end], out);
+            let (start, end) = (usize::from(starts[key]), usize::from(starts[key + 1]));
+            if start == end {
+                continue;
+            }
+            let (step, tile) = (key as i32 >> 2, key & 3);
+            if step == 0 {
+                self.vertex(tail, number, &items[start..end], out);
+            } else {
+                self.tile(Tile { tail, number, step, beyond: 0, tile, depth: 0 });
+                self.group.evaluate(self.batch.what, &items[start..end], out);
             }
         }
+    }
+
+    /// Samples by growing keys; `items` is room for them.
+    fn sorted_keys(
+        &mut self,
+        mut keyed: Vec<Keyed>,
+        items: &mut [Item],
+        out: &mut Out<'_>,
+        patch: impl Fn(&'a PatchTable, u64) -> Patch<'a>,
+    ) {
+        keyed.sort_unstable_by_key(|keyed| (keyed.key, keyed.item.index));
+        for same in keyed.chunk_by(|a, b| a.key == b.key) {
+            for (item, keyed) in items.iter_mut().zip(same) {
+                *item = keyed.item;
+            }
+            self.piece(patch(self.batch.table, same[0].key), &items[..same.len()], out);
+        }
+        self.keyed = keyed;
     }
 
     /// Samples of a face that is split.
     fn tree(&mut self, root: u32, items: &mut [Item], out: &mut Out<'_>) {
         let table = self.batch.table;
-        self.keyed.clear();
-        for &Item { u, v, index } in items.iter() {
+        let mut keyed = std::mem::take(&mut self.keyed);
+        keyed.clear();
+        keyed.extend(items.iter().map(|&Item { u, v, index }| {
             let (key, u, v) = place::key(table, root, u, v);
-            self.keyed.push(Keyed { key, item: Item { u, v, index } });
-        }
-        self.keyed.sort_unstable_by_key(|keyed| (keyed.key, keyed.item.index));
-        let keyed = std::mem::take(&mut self.keyed);
-        for same in keyed.chunk_by(|a, b| a.key == b.key) {
-            for (item, keyed) in items.iter_mut().zip(same) {
-                *item = keyed.item;
-            }
-            self.piece(Patch::of(table, same[0].key), &items[..same.len()], out);
-        }
-        self.keyed = keyed;
+            Keyed { key, item: Item { u, v, index } }
+        }));
+        self.sorted_keys(keyed, items, out, Patch::of);
     }
 
     /// Samples of one bicubic patch, or at one vertex.

@@ -70,41 +70,43 @@ fn nested<const ORDER: usize, V: Four>(c: [V; 4], t: V) -> [V; 3] {
     [step(value, t, c[0]), slope, bend]
 }
 
-/// All that is wanted of one coordinate of four samples.
-#[inline(always)]
-fn coordinate<const PARTS: usize, V: Four>(net: &Net, axis: usize, u: V, v: V) -> Jet<V, PARTS> {
-    let mut columns = [[V::splat(0.0); 4]; 3];
-    for j in 0..4 {
-        let mut row = [V::splat(0.0); 4];
-        for i in 0..4 {
-            row[i] = V::splat(net[4 * j + i][axis]);
+/// All that is wanted of a patch, from an expression for its coefficient of a number.
+macro_rules! jet {
+    ($parts:ident, $u:expr, $v:expr, $k:ident => $coefficient:expr) => {{
+        let mut columns = [[V::splat(0.0); 4]; 3];
+        for j in 0..4 {
+            let mut row = [V::splat(0.0); 4];
+            for i in 0..4 {
+                let $k = 4 * j + i;
+                row[i] = $coefficient;
+            }
+            let parts = match $parts {
+                1 => nested::<0, V>(row, $u),
+                3 => nested::<1, V>(row, $u),
+                _ => nested::<2, V>(row, $u),
+            };
+            for k in 0..3 {
+                columns[k][j] = parts[k];
+            }
         }
-        let parts = match PARTS {
-            1 => nested::<0, V>(row, u),
-            3 => nested::<1, V>(row, u),
-            _ => nested::<2, V>(row, u),
-        };
-        for k in 0..3 {
-            columns[k][j] = parts[k];
+        let mut jet = [V::splat(0.0); $parts];
+        match $parts {
+            1 => jet[0] = nested::<0, V>(columns[0], $v)[0],
+            3 => {
+                [jet[0], jet[2], _] = nested::<1, V>(columns[0], $v);
+                jet[1] = nested::<0, V>(columns[1], $v)[0];
+            }
+            _ => {
+                let twice = V::splat(2.0);
+                let [value, slope, bend] = nested::<2, V>(columns[0], $v);
+                (jet[0], jet[2], jet[5]) = (value, slope, bend.times(twice));
+                let [value, slope, _] = nested::<1, V>(columns[1], $v);
+                (jet[1], jet[4]) = (value, slope);
+                jet[3] = nested::<0, V>(columns[2], $v)[0].times(twice);
+            }
         }
-    }
-    let mut jet = [V::splat(0.0); PARTS];
-    match PARTS {
-        1 => jet[0] = nested::<0, V>(columns[0], v)[0],
-        3 => {
-            [jet[0], jet[2], _] = nested::<1, V>(columns[0], v);
-            jet[1] = nested::<0, V>(columns[1], v)[0];
-        }
-        _ => {
-            let twice = V::splat(2.0);
-            let [value, slope, bend] = nested::<2, V>(columns[0], v);
-            (jet[0], jet[2], jet[5]) = (value, slope, bend.times(twice));
-            let [value, slope, _] = nested::<1, V>(columns[1], v);
-            (jet[1], jet[4]) = (value, slope);
-            jet[3] = nested::<0, V>(columns[2], v)[0].times(twice);
-        }
-    }
-    jet
+        jet
+    }};
 }
 
 /// Four samples: for each part of the jet its three coordinates.
@@ -113,12 +115,18 @@ pub(super) fn four<const PARTS: usize, V: Four>(net: &Net, u: V, v: V) -> Jet<[V
     let mut jet = [[V::splat(0.0); 3]; PARTS];
     // Not unrolled: three coordinates at once want more registers than there are.
     for axis in 0..std::hint::black_box(3) {
-        let parts = coordinate::<PARTS, V>(net, axis, u, v);
+        let parts = jet!(PARTS, u, v, k => V::splat(net[k][axis]));
         for part in 0..PARTS {
             jet[part][axis] = parts[part];
         }
     }
     jet
+}
+
+/// One sample, coordinates in lanes: the same operations in the same order, so the same numbers.
+#[inline(always)]
+pub(super) fn one<const PARTS: usize, V: Four>(net: &Net, u: V, v: V) -> Jet<V, PARTS> {
+    jet!(PARTS, u, v, k => V::load(&net[k]))
 }
 
 /// [`coefficients`] in plain code.
@@ -130,8 +138,10 @@ pub(super) fn coefficients_of(net: &[Wide; 16]) -> Net {
 
 /// Position, `du`, `dv`, `duu`, `duv`, `dvv` of one sample, in plain code.
 pub(super) fn single(net: &Net, u: f64, v: f64) -> [Vec3; 6] {
-    let jet = four::<6, Plain>(net, Plain::splat(u), Plain::splat(v));
-    jet.map(|[x, y, z]| Vec3::new(x.store()[0], y.store()[0], z.store()[0]))
+    one::<6, Plain>(net, Plain::splat(u), Plain::splat(v)).map(|part| {
+        let [x, y, z, _] = part.store();
+        Vec3::new(x, y, z)
+    })
 }
 
 /// The four cubic B-splines over a cell at `t`, and their first and second derivatives: weights of control points.

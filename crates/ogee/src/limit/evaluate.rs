@@ -92,7 +92,43 @@ impl Group {
 
     #[inline]
     fn parts<const PARTS: usize, S: Source>(&self, source: S, out: &mut Out<'_>) {
-        simd::dispatch(Run::<PARTS, S> { group: self, source, out });
+        if source.len() > 1 {
+            return simd::dispatch(Run::<PARTS, S> { group: self, source, out });
+        }
+        let mut jet = [[0.0; 4]; PARTS];
+        let item = source.get(0);
+        simd::dispatch(One { net: &self.net, item, jet: &mut jet });
+        self.write_one(item.index as usize, &jet, out);
+    }
+
+    /// Scales and writes one jet: the same operations as those of four.
+    fn write_one<const PARTS: usize>(&self, index: usize, jet: &Jet<Wide, PARTS>, out: &mut Out<'_>) {
+        let scaled = |part: Wide, scale: f64| narrow(part) * scale;
+        let [position_scale, first_scale, second_scale] = self.scales;
+        out.position[index] = narrow(self.base) + scaled(jet[0], position_scale);
+        out.flags[index] = self.flags;
+        if PARTS == 1 {
+            return;
+        }
+        out.du[index] = scaled(jet[1], first_scale);
+        out.dv[index] = scaled(jet[2], first_scale);
+        let (du, dv) = (narrow(jet[1]), narrow(jet[2]));
+        let cross = du.cross(dv);
+        let length = cross.dot(cross);
+        out.normal[index] = if is_sure(length, du.dot(du), dv.dot(dv)) {
+            cross * (1.0 / length.sqrt())
+        } else {
+            unit_normal(du, dv).unwrap_or_else(|| {
+                out.flags[index] = self.flags.with(Flags::NORMAL_UNDEFINED);
+                Vec3::ZERO
+            })
+        };
+        if PARTS == 3 {
+            return;
+        }
+        out.duu[index] = scaled(jet[3], second_scale);
+        out.duv[index] = scaled(jet[4], second_scale);
+        out.dvv[index] = scaled(jet[5], second_scale);
     }
 
     /// Scales jets, and writes them.
@@ -103,27 +139,30 @@ impl Group {
         jet: &Jet<[V; 3], PARTS>,
         out: &mut Out<'_>,
     ) {
+        // One check of all indices: arrays that are wanted have the same length.
+        let count = out.position.len();
+        assert!(put.indices.iter().all(|&index| index < count), "there is room for every sample");
         let [position_scale, first_scale, second_scale] = self.scales;
         let [x, y, z] = scaled(&jet[0], position_scale);
         let base = [V::splat(self.base[0]), V::splat(self.base[1]), V::splat(self.base[2])];
         put.vectors(out.position, [base[0].plus(x), base[1].plus(y), base[2].plus(z)]);
-        put.each(out.flags, |_| self.flags);
+        put.each(&mut out.flags[..count], |_| self.flags);
         if PARTS == 1 {
             return;
         }
-        put.vectors(out.du, scaled(&jet[1], first_scale));
-        put.vectors(out.dv, scaled(&jet[2], first_scale));
+        put.vectors(&mut out.du[..count], scaled(&jet[1], first_scale));
+        put.vectors(&mut out.dv[..count], scaled(&jet[2], first_scale));
         let normals = normals(&jet[1], &jet[2]);
-        put.vectors(out.normal, normals.vectors);
+        put.vectors(&mut out.normal[..count], normals.vectors);
         if normals.sure != [true; LANES] {
             self.doubtful(put, normals.sure, [stored(&jet[1]), stored(&jet[2])], out);
         }
         if PARTS == 3 {
             return;
         }
-        put.vectors(out.duu, scaled(&jet[3], second_scale));
-        put.vectors(out.duv, scaled(&jet[4], second_scale));
-        put.vectors(out.dvv, scaled(&jet[5], second_scale));
+        put.vectors(&mut out.duu[..count], scaled(&jet[3], second_scale));
+        put.vectors(&mut out.duv[..count], scaled(&jet[4], second_scale));
+        put.vectors(&mut out.dvv[..count], scaled(&jet[5], second_scale));
     }
 
     /// Normals whose squares are too large or small for numbers, or that do not exist.
@@ -178,6 +217,26 @@ impl<S: Source> Put<S> {
             for l in 0..self.count {
                 out[self.indices[l]] = value(l);
             }
+        }
+    }
+}
+
+/// One sample, for [`simd::dispatch`].
+struct One<'a, const PARTS: usize> {
+    net: &'a Net,
+    item: Item,
+    jet: &'a mut Jet<Wide, PARTS>,
+}
+
+impl<const PARTS: usize> simd::Kernel for One<'_, PARTS> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Four>(self) {
+        let One { net, item, jet } = self;
+        let parts = bicubic::one::<PARTS, V>(net, V::splat(item.u), V::splat(item.v));
+        for part in 0..PARTS {
+            jet[part] = parts[part].store();
         }
     }
 }
@@ -241,16 +300,22 @@ fn normals<V: Four>(a: &[V; 3], b: &[V; 3]) -> Normals<V> {
     let length = square(&cross);
     let scale = V::splat(1.0).over(length.root());
     let vectors = [cross[0].times(scale), cross[1].times(scale), cross[2].times(scale)];
+    let (first, second, length) = (square(a).store(), square(b).store(), length.store());
+    let mut sure = [true; LANES];
+    for l in 0..LANES {
+        sure[l] = is_sure(length[l], first[l], second[l]);
+    }
+    Normals { vectors, sure }
+}
+
+/// True if a normal is beyond doubt; `length` is the square of the cross product of two tangents, `first` and `second`
+/// are those of the tangents.
+#[inline(always)]
+fn is_sure(length: f64, first: f64, second: f64) -> bool {
     // Squares of products of derivatives: within these no step has over- or underflown.
     const LEAST: f64 = 1e-200;
     const GREATEST: f64 = 1e200;
-    let least = V::splat(PARALLEL * PARALLEL).times(square(a)).times(square(b)).store();
-    let length = length.store();
-    let mut sure = [true; LANES];
-    for l in 0..LANES {
-        sure[l] = (length[l] > least[l]) & (length[l] > LEAST) & (length[l] < GREATEST);
-    }
-    Normals { vectors, sure }
+    (length > PARALLEL * PARALLEL * first * second) & (length > LEAST) & (length < GREATEST)
 }
 
 /// The unit normal of two tangents of any size; nothing where they are parallel or vanish.

@@ -94,25 +94,28 @@ impl<'a> Patch<'a> {
 pub(super) fn in_chain(corner: u32, u: f64, v: f64) -> (u64, f64, f64) {
     let (mut x, mut y) = to_corner(corner, u, v);
     let mut step = 0;
-    while x.max(y) < f64::MIN_POSITIVE {
-        if x.max(y) <= 0.0 {
+    while larger(x, y) < f64::MIN_POSITIVE {
+        if larger(x, y) <= 0.0 {
             return (0, 0.0, 0.0);
         }
         // No exponent to read: doubled by hand.
         (x, y, step) = (2.0 * x, 2.0 * y, step + 1);
     }
-    let exponent = (x.max(y).to_bits() >> 52) as i32;
+    let exponent = (larger(x, y).to_bits() >> 52) as i32;
     let doublings = (1023 - exponent).max(1);
     let scale = power_of_two(doublings);
     (x, y) = (x * scale, y * scale);
-    let tile = match (x >= 1.0, y >= 1.0) {
-        (true, false) => 0,
-        (true, true) => 1,
-        _ => 2,
-    };
-    let inside = |t: f64| if t >= 1.0 { t - 1.0 } else { t };
-    let (u, v) = from_corner(corner, inside(x), inside(y));
+    // Which of the tiles at (1, 0), (1, 1), (0, 1); one of the two is 1 at least.
+    let (right, above) = (x >= 1.0, y >= 1.0);
+    let tile = u64::from(above) << u64::from(!right);
+    let (x, y) = (x - f64::from(u8::from(right)), y - f64::from(u8::from(above)));
+    let (u, v) = from_corner(corner, x, y);
     (((step + doublings) as u64) << 2 | tile, u, v)
+}
+
+#[inline]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
 /// `2^e`, for exponents of numbers.
