@@ -8,6 +8,7 @@ use std::collections::HashMap;
 use std::sync::OnceLock;
 
 use super::chain::{ChainBasis, Kind};
+use super::points::{Below, Points};
 use super::surroundings::{CornerKind, Mirrored, Plain, Surroundings, plain_corners, plain_ring};
 use super::table::{NO_LEAF, PatchTable, Sources};
 use super::tree::{Node, Piece, Tail};
@@ -49,11 +50,11 @@ pub(super) fn table(level: &Level) -> PatchTable {
     let mut below: Option<Below> = None;
     while !targets.is_empty() {
         let level = below.as_ref().map_or(level, |below| &below.level);
-        let split = builder.settle(level, below.as_ref().map(|below| &below.rows), targets);
+        let split = builder.settle(level, below.as_ref(), targets);
         if split.is_empty() {
             break;
         }
-        let (next, next_targets) = builder.refine(level, below.as_ref().map(|below| &below.rows), split);
+        let (next, next_targets) = builder.refine(level, below.as_ref(), split);
         (below, targets) = (Some(next), next_targets);
     }
     builder.table
@@ -82,12 +83,6 @@ fn face_of(starts: &[u32], root: u32) -> FaceId {
         return FaceId(root);
     }
     FaceId(starts.partition_point(|&start| start <= root) as u32 - 1)
-}
-
-/// A level below the cage, with its points as weights on the cage.
-struct Below {
-    level: Level,
-    rows: StencilTable,
 }
 
 /// A face that is not settled yet.
@@ -175,11 +170,29 @@ impl Builder {
     /// Writes the chains of quads with one irregular corner, as far as the quick way can.
     fn plain_tails(&mut self, mesh: &impl Connectivity, starts: &[u32], pending: &[u32]) -> Vec<Target> {
         const CHUNK: usize = 512;
+        const WAVE: usize = 32;
+        let mut rest = Vec::new();
+        self.table.tails.reserve_exact(pending.len());
+        // In waves, so that what chunks hold before it is joined is little, and the same memory again.
+        for wave in pending.chunks(CHUNK * WAVE) {
+            self.plain_wave(mesh, starts, wave, CHUNK, &mut rest);
+        }
+        rest
+    }
+
+    fn plain_wave(
+        &mut self,
+        mesh: &impl Connectivity,
+        starts: &[u32],
+        pending: &[u32],
+        chunk_size: usize,
+        rest: &mut Vec<Target>,
+    ) {
         let roots = &self.table.roots;
-        let chunks = par::map(pending.len().div_ceil(CHUNK), |chunk| {
+        let chunks = par::map(pending.len().div_ceil(chunk_size), |chunk| {
             let mut rings: Vec<u32> = Vec::new();
             let mut valences = Vec::new();
-            for &root in &pending[chunk * CHUNK..((chunk + 1) * CHUNK).min(pending.len())] {
+            for &root in &pending[chunk * chunk_size..((chunk + 1) * chunk_size).min(pending.len())] {
                 let slot = &roots[root as usize].0;
                 let h = HalfedgeId(mesh.first(face_of(starts, root)).0 + slot[2]);
                 let valence = plain_ring(mesh, h, &mut rings);
@@ -190,10 +203,7 @@ impl Builder {
             }
             (rings, valences)
         });
-        let mut rest = Vec::new();
         let mut pending = pending.iter();
-        self.table.rings.reserve_exact(chunks.iter().map(|(rings, _)| rings.len()).sum());
-        self.table.tails.reserve_exact(pending.len());
         for (rings, valences) in chunks {
             let mut first = self.table.rings.len() as u32;
             self.table.rings.extend(rings);
@@ -212,7 +222,6 @@ impl Builder {
                 self.place(Slot::Root(root), node);
             }
         }
-        rest
     }
 
     /// The number of a kind of chain.
@@ -253,24 +262,23 @@ impl Builder {
         }
     }
 
-    /// Writes leaves and tails; gives what has to be split. `rows` are the points of a level below the cage.
-    fn settle(&mut self, level: &Level, rows: Option<&StencilTable>, targets: Vec<Target>) -> Vec<Target> {
+    /// Writes leaves and tails; gives what has to be split. `below` is `None` for the cage itself.
+    fn settle(&mut self, level: &Level, below: Option<&Below>, targets: Vec<Target>) -> Vec<Target> {
         let tagged = tagged_vertices(level);
         let found = par::collect(targets.len(), |i| find(level, &tagged, targets[i]));
-        let vertices =
-            if rows.is_some() { vec![UNKNOWN; level.topology().vertex_count()] } else { Vec::new() };
-        let mut points = Points { rows, vertices, mirrored: HashMap::new() };
+        let next = (self.table.cage_count + self.table.local.len()) as u32;
+        let mut points = Points::new(below, next);
         let mut split = Vec::new();
         for (target, found) in targets.into_iter().zip(found) {
             match found {
                 Found::PlainLeaf(net) => {
-                    let net = net.map(|vertex| points.vertex(&mut self.table, vertex));
+                    let net = net.map(|vertex| points.vertex(vertex));
                     self.leaf(target.slot, net);
                 }
                 Found::PlainTail { corner, valence, ring } => {
                     let first = self.table.rings.len() as u32;
                     for vertex in ring {
-                        let number = points.vertex(&mut self.table, vertex);
+                        let number = points.vertex(vertex);
                         self.table.rings.push(number);
                     }
                     let kind = self.kind(Kind::Smooth { valence });
@@ -278,13 +286,13 @@ impl Builder {
                     self.place(target.slot, node);
                 }
                 Found::Leaf(net) => {
-                    let net = net.map(|point| points.number(&mut self.table, &point));
+                    let net = net.map(|point| points.number(point));
                     self.leaf(target.slot, net);
                 }
                 Found::Tail { corner, kind, ring } => {
                     let first = self.table.rings.len() as u32;
-                    for point in &ring {
-                        let number = points.number(&mut self.table, point);
+                    for point in ring {
+                        let number = points.number(point);
                         self.table.rings.push(number);
                     }
                     let kind = self.kind(kind);
@@ -294,16 +302,12 @@ impl Builder {
                 Found::Split => split.push(target),
             }
         }
+        self.table.local.extend(&points.rows());
         split
     }
 
     /// Refines what has to be split, and all that touches it, once.
-    fn refine(
-        &mut self,
-        level: &Level,
-        rows: Option<&StencilTable>,
-        split: Vec<Target>,
-    ) -> (Below, Vec<Target>) {
+    fn refine(&mut self, level: &Level, below: Option<&Below>, split: Vec<Target>) -> (Below, Vec<Target>) {
         let faces: Vec<FaceId> = split.iter().map(|target| target.face).collect();
         let mut part_faces = with_ring(level, &faces);
         if level.is_chaikin() {
@@ -312,21 +316,6 @@ impl Builder {
             part_faces = with_ring(level, &part_faces);
         }
         let part = Neighbourhood::new(level, &part_faces);
-        let step = part.level.refine();
-        let composed = StencilTable::from_rows(step.stencils.len(), |i, row| {
-            for (middle, outer) in step.stencils.row(i) {
-                let vertex = part.vertices[middle as usize];
-                match rows {
-                    None => row.add(vertex, outer),
-                    Some(rows) => {
-                        for (source, inner) in rows.row(vertex.index()) {
-                            row.add(crate::mesh::VertexId(source), outer * inner);
-                        }
-                    }
-                }
-            }
-            row.expand_face_points(|_, _, _| ());
-        });
         let mut targets = Vec::new();
         for target in split {
             let own = part_faces.partition_point(|&face| face < target.face) as u32;
@@ -350,7 +339,7 @@ impl Builder {
                 slot: Slot::Child { split: number, corner },
             }));
         }
-        (Below { level: step.level, rows: composed }, targets)
+        (Below::new(part, below), targets)
     }
 }
 
@@ -409,61 +398,4 @@ fn find(level: &Level, tagged: &[bool], target: Target) -> Found {
             Found::Tail { corner, kind, ring }
         }
     }
-}
-
-/// Numbers of the points of a level, given as they are asked for.
-struct Points<'a> {
-    /// Weights on the cage; `None` for the cage itself.
-    rows: Option<&'a StencilTable>,
-    /// Numbers given so far, by vertex; empty for the cage.
-    vertices: Vec<u32>,
-    mirrored: HashMap<Vec<(u32, i32)>, u32>,
-}
-
-const UNKNOWN: u32 = u32::MAX;
-
-impl Points<'_> {
-    fn vertex(&mut self, table: &mut PatchTable, vertex: u32) -> u32 {
-        let Some(rows) = self.rows else { return vertex };
-        let number = &mut self.vertices[vertex as usize];
-        if *number == UNKNOWN {
-            *number = add_point(table, rows.row(vertex as usize));
-        }
-        *number
-    }
-
-    fn number(&mut self, table: &mut PatchTable, point: &Mirrored) -> u32 {
-        match (&point[..], self.rows) {
-            (&[(vertex, _)], _) => self.vertex(table, vertex),
-            (terms, rows) => {
-                // Weights of mirrored points are small whole numbers.
-                let key = terms.iter().map(|&(vertex, weight)| (vertex, weight as i32)).collect();
-                *self.mirrored.entry(key).or_insert_with(|| {
-                    let mut row: Vec<(u32, f64)> = Vec::new();
-                    for &(vertex, share) in terms {
-                        match rows {
-                            None => row.push((vertex, share)),
-                            Some(rows) => {
-                                row.extend(rows.row(vertex as usize).map(|(source, w)| (source, share * w)));
-                            }
-                        }
-                    }
-                    row.sort_by_key(|&(source, _)| source);
-                    row.dedup_by(|next, kept| {
-                        let same = next.0 == kept.0;
-                        if same {
-                            kept.1 += next.1;
-                        }
-                        same
-                    });
-                    add_point(table, row)
-                })
-            }
-        }
-    }
-}
-
-fn add_point(table: &mut PatchTable, row: impl IntoIterator<Item = (u32, f64)>) -> u32 {
-    table.local.append(row);
-    (table.cage_count + table.local.len() - 1) as u32
 }

@@ -5,6 +5,7 @@ mod chain;
 mod location;
 pub(crate) mod masks;
 mod neighbourhood;
+mod points;
 mod smooth;
 mod surroundings;
 mod table;

@@ -2,7 +2,7 @@
 
 use crate::mesh::{EdgeId, FaceId, VertexId};
 use crate::rules::{Level, masks};
-use crate::stencil::StencilTable;
+use crate::stencil::{Row, StencilTable};
 
 /// What one step gives: the next level, and how its points come from those of this one.
 #[derive(Clone, Debug)]
@@ -21,18 +21,22 @@ impl Level {
     /// If the next level would have `2^32 - 1` halfedges or more; [`crate::Refinement::uniform`] asks first.
     pub fn refine(&self) -> Step {
         let topology = self.topology();
-        let (vertices, faces) = (topology.vertex_count(), topology.face_count());
-        let edges = topology.edge_count();
-        let stencils = StencilTable::from_rows(vertices + faces + edges, |i, row| {
-            if i < vertices {
-                masks::vertex_mask(self, VertexId(i as u32), row);
-            } else if i < vertices + faces {
-                masks::face_mask(self, FaceId((i - vertices) as u32), row);
-            } else {
-                masks::edge_mask(self, topology.side(EdgeId((i - vertices - faces) as u32)), row);
-            }
-        });
+        let count = topology.vertex_count() + topology.face_count() + topology.edge_count();
+        let stencils = StencilTable::from_rows(count, |i, row| self.child_mask(i as u32, row));
         Step { level: self.split(), stencils }
+    }
+
+    /// What makes a vertex of the next level, by its number there.
+    pub(crate) fn child_mask(&self, child: u32, row: &mut Row) {
+        let topology = self.topology();
+        let (vertices, faces) = (topology.vertex_count() as u32, topology.face_count() as u32);
+        if child < vertices {
+            masks::vertex_mask(self, VertexId(child), row);
+        } else if child < vertices + faces {
+            masks::face_mask(self, FaceId(child - vertices), row);
+        } else {
+            masks::edge_mask(self, topology.side(EdgeId(child - vertices - faces)), row);
+        }
     }
 
     /// The next level alone.

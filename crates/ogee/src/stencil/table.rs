@@ -73,6 +73,13 @@ impl StencilTable {
         self.starts.push(u32::try_from(self.sources.len()).expect("fewer than 2^32 weights in a table"));
     }
 
+    /// Appends the rows of another table.
+    pub(crate) fn extend(&mut self, other: &StencilTable) {
+        for i in 0..other.len() {
+            self.append(other.row(i));
+        }
+    }
+
     /// Number of rows.
     pub fn len(&self) -> usize {
         self.starts.len().saturating_sub(1)

@@ -1,0 +1,109 @@
+//! Points of levels below the cage, as weights on the cage; only those that patches use are worked out.
+
+use std::collections::HashMap;
+
+use super::Neighbourhood;
+use super::surroundings::Mirrored;
+use crate::mesh::VertexId;
+use crate::rules::Level;
+use crate::stencil::{Row, StencilTable};
+
+/// A level below the cage.
+pub(super) struct Below {
+    pub(super) level: Level,
+    /// What it is the refinement of.
+    part: Neighbourhood,
+    /// The points of `part` as weights on the cage; `None` where they are the cage's.
+    above: Option<StencilTable>,
+}
+
+impl Below {
+    /// The refinement of some faces of a level, which itself lies below the cage or is the cage.
+    pub(super) fn new(part: Neighbourhood, parent: Option<&Below>) -> Below {
+        let above = parent.map(|parent| {
+            StencilTable::from_rows(part.vertices.len(), |i, row| {
+                parent.write(part.vertices[i].0, 1.0, row);
+                row.expand_face_points(|_, _, _| ());
+            })
+        });
+        Below { level: part.level.split(), part, above }
+    }
+
+    /// Adds a vertex of the level as weights on the cage.
+    fn write(&self, vertex: u32, share: f64, row: &mut Row) {
+        let mut mask = Row::new();
+        self.part.level.child_mask(vertex, &mut mask);
+        for &(source, weight) in mask.weights() {
+            match &self.above {
+                None => row.add(self.part.vertices[source as usize], share * weight),
+                Some(above) => {
+                    for (cage, inner) in above.row(source as usize) {
+                        row.add(VertexId(cage), share * weight * inner);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Gives points of a level their numbers, as they are asked for.
+pub(super) struct Points<'a> {
+    /// `None` for the cage itself.
+    below: Option<&'a Below>,
+    /// The number of the next point.
+    next: u32,
+    /// Numbers given so far, by vertex; empty for the cage, whose vertices keep theirs.
+    vertices: Vec<u32>,
+    mirrored: HashMap<Vec<(u32, i32)>, u32>,
+    /// What has got a number, in that order.
+    new: Vec<Mirrored>,
+}
+
+const UNKNOWN: u32 = u32::MAX;
+
+impl<'a> Points<'a> {
+    /// New points get numbers from `next` on.
+    pub(super) fn new(below: Option<&'a Below>, next: u32) -> Points<'a> {
+        let count = below.map_or(0, |below| below.level.topology().vertex_count());
+        Points { below, next, vertices: vec![UNKNOWN; count], mirrored: HashMap::new(), new: Vec::new() }
+    }
+
+    pub(super) fn vertex(&mut self, vertex: u32) -> u32 {
+        if self.below.is_none() {
+            return vertex;
+        }
+        let number = &mut self.vertices[vertex as usize];
+        if *number == UNKNOWN {
+            *number = self.next;
+            self.next += 1;
+            self.new.push(vec![(vertex, 1.0)]);
+        }
+        *number
+    }
+
+    pub(super) fn number(&mut self, point: Mirrored) -> u32 {
+        if let [(vertex, _)] = point[..] {
+            return self.vertex(vertex);
+        }
+        // Weights of mirrored points are small whole numbers.
+        let key = point.iter().map(|&(vertex, weight)| (vertex, weight as i32)).collect();
+        *self.mirrored.entry(key).or_insert_with(|| {
+            self.new.push(point);
+            self.next += 1;
+            self.next - 1
+        })
+    }
+
+    /// The new points as weights on the cage.
+    pub(super) fn rows(&self) -> StencilTable {
+        StencilTable::from_rows(self.new.len(), |i, row| {
+            for &(vertex, share) in &self.new[i] {
+                match self.below {
+                    None => row.add(VertexId(vertex), share),
+                    Some(below) => below.write(vertex, share, row),
+                }
+            }
+            row.expand_face_points(|_, _, _| ());
+        })
+    }
+}
