@@ -2,15 +2,16 @@
 //!
 //! A *control mesh*, or cage, is a handful of polygons. Refinement rounds it: every step replaces each face by
 //! smaller ones and moves the points a little, and the steps lead to a smooth *limit surface*. This crate knows the
-//! rules of refinement, where its limit is, and how to write that surface as NURBS faces that share tangent planes,
-//! sewn into solids. Files are the business of the crate `ogee-formats`.
+//! rules of refinement, evaluates its limit at any point, and knows how to write that surface as NURBS faces that share
+//! tangent planes, sewn into solids. Files are the business of the crate `ogee-formats`.
 //!
 //! # The main path
 //!
 //! Data that one can build by hand goes through one gate; behind it there is nothing left to go wrong.
 //!
 //! ```
-//! use ogee::{ControlMesh, FaceList, Level, Refinement, Vec3, limit_vertices};
+//! use ogee::{ControlMesh, FaceId, FaceList, Level, LimitSurface, PatchTable, Refinement, Vec3};
+//! use ogee::limit_vertices;
 //!
 //! // A pyramid: plain points and faces, counter-clockwise seen from outside.
 //! let points = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -31,9 +32,15 @@
 //! let fine = refined.apply(&mesh.points);
 //! assert_eq!(fine.len(), refined.finest().topology().vertex_count());
 //!
-//! // Where all this leads to: the exact limit of each vertex, with its normal.
+//! // Where all this leads to: the exact limit of each vertex, with its normal ..
 //! let limit = limit_vertices(refined.finest(), &fine);
 //! assert!(limit[4].position.z < 1.0 && limit[4].normal.is_some_and(|n| n.z > 0.999));
+//!
+//! // .. and of every point between them, with no refinement: here the apex, the third corner of a triangle.
+//! let table = PatchTable::new(&level);
+//! let surface = LimitSurface::new(&table, &mesh.points);
+//! let apex = surface.eval(table.locate(FaceId(1), Some(2), 0.0, 0.0)?);
+//! assert!(apex.position.distance(limit[4].position) < 1e-14);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -54,14 +61,14 @@
 //!
 //! | room | holds |
 //! | --- | --- |
-//! | [`math`] | [`Vec3`], [`Grid`], [`Interpolate`]: what everything is spoken in |
+//! | [`math`] | [`Vec3`], [`Grid`], [`Interpolate`], [`SurfaceJet`]: what everything is spoken in |
 //! | [`mesh`] | [`ControlMesh`], ids, [`Topology`], every [`Defect`] a mesh can have, built-in [`shapes`] |
 //! | `stencil` | [`Row`] and [`StencilTable`]: weights, and the one loop that applies them |
 //! | `catmull_clark`, `crease` | the masks |
 //! | `rules` | [`Level`]: a topology with its rules; [`Sector`]; the rule table |
 //! | `refine` | the one-to-four split, [`Step`], [`Refinement`], [`FineMesh`] |
-//! | `patch` | pieces of a level, taken out to be worked on alone |
-//! | `limit` | limit masks, [`limit_vertices`] |
+//! | `patch` | [`PatchTable`]: what each face's surface is made of; [`Location`]; limit masks; pieces of a level, taken out |
+//! | `limit` | [`LimitSurface`]: the surface at any point; [`ClosestPoints`]; [`limit_vertices`] |
 //! | [`nurbs`] | knots, curves, surfaces of any degree, shells |
 //! | [`stam`] | the limit surface a second time, by eigenvectors, at smooth interior vertices |
 //! | [`pccm`] | one smooth patch per quad, and packing them into few |
@@ -76,8 +83,8 @@
 //! - Faces, vertices, edges and halfedges have [ids](FaceId) of their own types, numbered from 0 in the order of the
 //!   mesh; [`Grid`]s are indexed `(i, j)`, `i` along `u`.
 //! - Functions that can fail say so with an error of their own; wrong input never panics. Ids out of range do.
-//! - All arithmetic is `f64`. Results do not depend on the number of threads; the feature `rayon`, on by default,
-//!   brings those.
+//! - All arithmetic is `f64`. Results depend neither on the number of threads nor on how wide the processor's registers
+//!   are; the feature `rayon`, on by default, brings threads.
 //!
 //! The methods have pages of their own, with formulas, in `docs/methods` of the repository.
 
