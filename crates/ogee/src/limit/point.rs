@@ -28,7 +28,8 @@ impl Flags {
     pub const NORMAL_ONE_SIDED: Flags = Flags(2);
     /// Curvature grows without bound towards this point.
     pub const UNBOUNDED_CURVATURE: Flags = Flags(4);
-    /// So close to an extraordinary vertex that the surface is its own limit shape, scaled.
+    /// So close to an extraordinary vertex that the surface is its own limit shape, scaled. Second derivatives may be
+    /// infinite here.
     pub const BEYOND_NMAX: Flags = Flags(8);
     /// Tangents vanish or are parallel: the normal is the zero vector.
     pub const NORMAL_UNDEFINED: Flags = Flags(16);

@@ -19,6 +19,7 @@ impl PatchTable {
     ///
     /// Rows of positions sum to one, rows of derivatives to zero. At an extraordinary vertex the rows of `du` and `dv` are
     /// two that span the tangent plane, or empty where there is no mask for them; second derivatives have empty rows.
+    /// Which way `du x dv` looks at a re-entrant corner of two faces depends on where points are, which rows do not know.
     ///
     /// Costs some microseconds a location.
     ///

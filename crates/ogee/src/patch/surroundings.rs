@@ -275,3 +275,63 @@ pub(super) fn plain_ring(mesh: &impl Connectivity, h: HalfedgeId, out: &mut Vec<
         g = next;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{FaceId, shapes};
+
+    #[test]
+    fn the_quick_way_is_the_general_way() {
+        let meshes = [
+            shapes::torus(7, 5),
+            shapes::studded_torus(12, 8, 4),
+            shapes::cube(),
+            shapes::grid(4, 3),
+            shapes::disk(5, 2),
+        ];
+        let plain = |points: &[Mirrored]| -> Vec<u32> {
+            points
+                .iter()
+                .map(|point| if let [(vertex, 1.0)] = point[..] { vertex } else { u32::MAX })
+                .collect()
+        };
+        let (mut regular, mut irregular, mut other) = (0, 0, 0);
+        for mesh in meshes {
+            let coarse = Level::new(&mesh).unwrap();
+            for level in [coarse.split(), coarse] {
+                let (topology, surroundings) = (level.topology(), Surroundings::new(&level));
+                for face in (0..topology.face_count() as u32).map(FaceId) {
+                    let corners: Vec<HalfedgeId> = topology.halfedges(face).collect();
+                    let kinds: Vec<CornerKind> = corners.iter().map(|&h| surroundings.corner(h)).collect();
+                    let boundary = corners.iter().any(|&h| topology.is_boundary(topology.origin(h)));
+                    match plain_corners(topology, corners[0]) {
+                        Plain::Regular(net) => {
+                            assert_eq!(kinds, [CornerKind::Regular; 4]);
+                            assert_eq!(plain(&surroundings.net(corners[0])), net);
+                            regular += 1;
+                        }
+                        Plain::OneIrregular { corner, outer } => {
+                            let h = corners[corner as usize];
+                            let mut ring = Vec::new();
+                            let valence = plain_ring(topology, h, &mut ring).unwrap();
+                            ring.extend(outer);
+                            let kind = Kind::Smooth { valence };
+                            assert_eq!(kinds[corner as usize], CornerKind::Irregular(kind));
+                            assert_eq!(kinds.iter().filter(|&&kind| kind == CornerKind::Regular).count(), 3);
+                            assert_eq!(plain(&surroundings.ring(h, kind)), ring);
+                            irregular += 1;
+                        }
+                        Plain::Other => {
+                            let several =
+                                kinds.iter().filter(|&&kind| kind != CornerKind::Regular).count() > 1;
+                            assert!(boundary || several);
+                            other += 1;
+                        }
+                    }
+                }
+            }
+        }
+        assert!(regular > 100 && irregular > 100 && other > 10, "{regular} {irregular} {other}");
+    }
+}
