@@ -174,6 +174,75 @@ fn a_dart_ends_where_refinement_takes_it() {
     }
 }
 
+/// All faces at a dart have one tangent plane, and the surface comes to it.
+#[test]
+fn a_dart_has_one_normal() {
+    for n in [3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 20, 50] {
+        let mesh = creased(disk(n), &spokes(&[1], 2), 10.0);
+        let limit = limit_vertices(&Level::new(&mesh).unwrap(), &mesh.points)[0];
+        around(&mesh, 0, |around| {
+            let wanted = limit.normal.unwrap();
+            let mut largest = [0.0_f64; 5];
+            for (face, at) in around.all().iter().enumerate() {
+                let expected = Flags::AT_EXTRAORDINARY.with(Flags::UNBOUNDED_CURVATURE);
+                assert_eq!(at.flags, expected, "valence {n}");
+                let gaps = [20, 25, 30, 60].map(|depth| {
+                    let x = 0.5f64.powi(depth);
+                    degrees(around.jet(face, x, x).normal, at.normal)
+                });
+                largest[0] = largest[0].max(degrees(at.normal, wanted));
+                for (largest, gap) in largest[1..].iter_mut().zip(gaps) {
+                    *largest = largest.max(gap);
+                }
+            }
+            println!("dart at valence {n}: {largest:?} degrees");
+            let [same, gaps @ ..] = largest;
+            assert!(same <= 1e-12, "valence {n}: {same:e}");
+            // It comes as slowly as the third eigenvalue is close to the second.
+            let limits = match n {
+                3 => [1e-3, 1e-4, 1e-5, 1e-9],
+                4 => [1e-2, 1e-3, 1e-4, 1e-9],
+                5..=8 => [5.0, 5.0, 1.0, 1e-2],
+                9..=12 => [20.0, 20.0, 10.0, 2.0],
+                20 => [40.0, 30.0, 20.0, 5.0],
+                // At 50 it shrinks by 0.997 a step.
+                _ => [180.0, 180.0, 180.0, 60.0],
+            };
+            for (gap, most) in gaps.into_iter().zip(limits) {
+                assert!(gap <= most, "valence {n}: {largest:?}");
+            }
+        });
+    }
+}
+
+/// A boundary vertex with one face that is no corner: tangents become parallel, and the normal is there all the same.
+#[test]
+fn a_smooth_corner_of_the_boundary_has_normals_at_every_depth() {
+    let mesh = cages::shaken(cages::with_boundary(cages::grid(2, 2), Boundary::EdgeOnly), 0.25);
+    around(&mesh, 0, |around| {
+        let at = around.jet(0, 0.0, 0.0);
+        // Among the steps, from the last to what lies below, and far below.
+        for depth in [16, 30, 34, 35, 36, 37, 40, 60, 200] {
+            let x = 0.5f64.powi(depth);
+            for (x, y) in [(x, x), (x, 0.0), (0.3 * x, x)] {
+                let [point, next] = [around.jet(0, x, y), around.jet(0, x / 2.0, y / 2.0)];
+                assert!(!point.flags.contains(Flags::NORMAL_UNDEFINED), "{depth} down");
+                // As slowly as one over the step.
+                let gap = degrees(point.normal, at.normal);
+                assert!(gap <= 25.0 / f64::from(depth.min(36)), "{depth} down: {gap:e} degrees");
+                if depth < 30 {
+                    continue;
+                }
+                let (a, b) = (point.jet, next.jet);
+                for (a, b, most) in [(a.du, b.du, 1e-7), (a.dv, b.dv, 1e-7), (a.duu, b.duu, 1e-3)] {
+                    let gap = a.distance(b) / a.length();
+                    assert!(gap <= most, "{depth} down: {gap:e}");
+                }
+            }
+        }
+    });
+}
+
 #[test]
 fn flags_tell_what_kind_of_vertex_it_is() {
     let extraordinary = Flags::AT_EXTRAORDINARY;

@@ -307,9 +307,9 @@ impl<'a> Worker<'a> {
         group.flags = Flags::NONE;
         if beyond > 0 {
             // Products of powers would leave the range of numbers where the power of the product does not.
-            let power = |factor: f64| (factor * basis.eigenvalue).powi(beyond);
+            let [position, first, second] = basis.growth(beyond);
             // An infinite scale would make NaN of a zero.
-            group.scales = [power(1.0), scale * power(2.0), (scale * scale * power(4.0)).min(f64::MAX)];
+            group.scales = [position, scale * first, (scale * scale * second).min(f64::MAX)];
             group.flags = Flags::BEYOND_NMAX;
         }
         group.base = self.walk.base();

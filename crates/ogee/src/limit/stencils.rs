@@ -96,13 +96,12 @@ impl Writer<'_> {
         let scale = power_of_two(tile.step + tile.depth);
         let mut scales = [1.0, scale, scale * scale];
         if tile.beyond > 0 {
-            let power = |factor: f64| (factor * chain.eigenvalue).powi(tile.beyond);
-            let shrink = power(1.0);
+            let [shrink, first, second] = chain.growth(tile.beyond);
             let limits = chain.position.iter().chain(std::iter::repeat(&0.0));
             for (weight, limit) in parts[0].iter_mut().zip(limits) {
                 *weight = limit + shrink * (*weight - limit);
             }
-            scales = [1.0, scale * power(2.0), (scale * scale * power(4.0)).min(f64::MAX)];
+            scales = [1.0, scale * first, (scale * scale * second).min(f64::MAX)];
         }
         scaled(parts, scales)
     }

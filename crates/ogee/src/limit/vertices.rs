@@ -2,6 +2,7 @@
 
 use crate::math::{Vec3, par};
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::patch::dart::Dart;
 use crate::patch::masks::{self, Frame};
 use crate::patch::{Neighbourhood, with_ring};
 use crate::rules::Level;
@@ -22,7 +23,7 @@ const CONVERGED: u32 = 90;
 /// The limit of every vertex.
 ///
 /// Where the masks hold at once (quads, no finite sharpness) they are used; elsewhere the vertex's neighbourhood is
-/// refined until they do, or, at a dart and at a tagged vertex inside a smooth region, until it has converged. Costs
+/// refined until they do, or, at a tagged vertex inside a smooth region, until it has converged. Costs
 /// a few dozen nanoseconds a regular vertex, some microseconds the others.
 ///
 /// # Panics
@@ -102,8 +103,8 @@ fn masks_hold(level: &Level, v: VertexId) -> bool {
         }
         sharp += usize::from(s > 0.0);
     }
-    // A dart, or a cone: no mask.
-    !(sharp == 1 || sharp == 0 && level.vertex_sharpness(v) > 0.0)
+    // A cone: no mask. At one of valence 2 the plane of a dart is not known either.
+    sharp > 1 || level.vertex_sharpness(v) == 0.0 && (sharp == 0 || topology.ring(v).count() > 2)
 }
 
 fn by_masks(level: &Level, points: &[Vec3], v: VertexId) -> LimitVertex {
@@ -112,6 +113,7 @@ fn by_masks(level: &Level, points: &[Vec3], v: VertexId) -> LimitVertex {
     let sectors = level.sectors(v);
     let is_corner =
         level.vertex_sharpness(v) > 0.0 || sectors.len() + usize::from(topology.is_boundary(v)) > 2;
+    let is_dart = !is_corner && sectors.len() == 1 && !topology.is_boundary(v);
     let mut position = at(v);
     let mut normal = Vec3::ZERO;
     for sector in sectors {
@@ -120,6 +122,8 @@ fn by_masks(level: &Level, points: &[Vec3], v: VertexId) -> LimitVertex {
         let diagonals: Vec<Vec3> = halfedges.iter().map(|&h| at(topology.target(topology.next(h)))).collect();
         let frame: Frame = if sector.closed {
             masks::smooth(at(v), &edges, &diagonals)
+        } else if is_dart {
+            Dart::new(edges.len()).frame(at(v), &edges, &diagonals)
         } else {
             edges.extend(halfedges.last().map(|&h| at(topology.origin(topology.prev(h)))));
             if is_corner { masks::corner(at(v), &edges) } else { masks::crease(at(v), &edges, &diagonals) }

@@ -16,6 +16,7 @@
 //! first sharp edge, and there is one neighbour more than diagonals. A [`Kind`] decides the rest, so each kind is worked
 //! out once: a model of it is refined by the ordinary masks, and what they say is kept as weights.
 
+use super::dart::Dart;
 use super::surroundings::{Mirrored, Surroundings};
 use super::{masks, smooth};
 use crate::math::Vec3;
@@ -170,7 +171,7 @@ pub(crate) struct ChainBasis {
     /// Weights of the limit position over the inner points.
     pub(crate) position: Vec<f64>,
     /// Weights of two vectors that span the tangent plane, along the quad's own edges where the vertex is smooth;
-    /// `None` where there is no mask.
+    /// `None` where there is none.
     pub(crate) tangents: Option<[Vec<f64>; 2]>,
     /// By how much a step shrinks the ring in the end.
     pub(crate) eigenvalue: f64,
@@ -218,6 +219,14 @@ impl ChainBasis {
         basis.tangents = tangent_weights(kind);
         basis.eigenvalue = basis.subdominant();
         basis
+    }
+
+    /// By how much the surface shrinks about its limit in some steps, and by how much first and second derivatives grow,
+    /// far down the chain.
+    pub(crate) fn growth(&self, steps: i32) -> [f64; 3] {
+        // Beside a boundary vertex of one face it comes close to a line; what bends shrinks by 1/4 then.
+        let bending = if let Kind::Crease { faces: 1, .. } = self.kind { 0.25 } else { self.eigenvalue };
+        [self.eigenvalue, 2.0 * self.eigenvalue, 4.0 * bending].map(|factor| factor.powi(steps))
     }
 
     /// Memory in bytes, about.
@@ -272,21 +281,21 @@ impl ChainBasis {
         match self.kind {
             Kind::Cone { .. } | Kind::Corner { .. } => unit(count, 0),
             Kind::Smooth { .. } | Kind::Crease { .. } => mask_weights(self.kind, |frame| frame.position),
-            Kind::Dart { .. } => {
-                let rows: Vec<_> = (0..count).map(|row| self.step_of(row)).collect();
-                let mut weights = unit(count, 0);
-                for _ in 0..POWER_STEPS {
-                    weights = times(&weights, &rows);
-                }
-                weights
-            }
+            Kind::Dart { valence, crease } => Dart::new(valence as usize).seen_from(crease as usize).0,
         }
     }
 
     /// The largest eigenvalue below one.
     fn subdominant(&self) -> f64 {
-        if let Kind::Smooth { valence } = self.kind {
-            return masks::subdominant(std::f64::consts::TAU / f64::from(valence));
+        match self.kind {
+            Kind::Smooth { valence } => {
+                return masks::subdominant(std::f64::consts::TAU / f64::from(valence));
+            }
+            Kind::Dart { valence, .. } => {
+                let [along, across] = Dart::new(valence as usize).eigenvalues;
+                return along.max(across);
+            }
+            _ => {}
         }
         let count = self.kind.inner_count();
         let rows: Vec<_> = (0..count).map(|row| self.step_of(row)).collect();
@@ -317,17 +326,6 @@ fn unit(count: usize, at: usize) -> Vec<f64> {
     weights
 }
 
-/// A row times a matrix of rows.
-fn times(weights: &[f64], rows: &[Vec<(usize, f64)>]) -> Vec<f64> {
-    let mut out = vec![0.0; weights.len()];
-    for (&weight, row) in weights.iter().zip(rows) {
-        for &(source, share) in row {
-            out[source] += weight * share;
-        }
-    }
-    out
-}
-
 /// The weights of a linear mask, one inner point at a time.
 fn mask_weights(kind: Kind, part: impl Fn(&masks::Frame) -> Vec3) -> Vec<f64> {
     let count = kind.inner_count();
@@ -348,7 +346,7 @@ fn mask_weights(kind: Kind, part: impl Fn(&masks::Frame) -> Vec3) -> Vec<f64> {
 }
 
 /// Tangent masks where they exist: on a crease with more than three faces, at a corner with more than two, at a cone
-/// there is no tangent plane; at a dart there is, but no mask.
+/// there is no tangent plane.
 fn tangent_weights(kind: Kind) -> Option<[Vec<f64>; 2]> {
     let [first, second] = match kind {
         Kind::Smooth { valence } if valence > 2 => {
@@ -359,6 +357,9 @@ fn tangent_weights(kind: Kind) -> Option<[Vec<f64>; 2]> {
         }
         Kind::Crease { faces: 1..=3, .. } | Kind::Corner { faces: 2, .. } => {
             [0, 1].map(|which| mask_weights(kind, |frame| frame.tangents[which]))
+        }
+        Kind::Dart { valence, crease } => {
+            return Dart::new(valence as usize).seen_from(crease as usize).1;
         }
         _ => return None,
     };

@@ -21,7 +21,7 @@ pub(crate) fn subdominant(angle: f64) -> f64 {
 }
 
 /// Weight of the neighbours against the diagonals in a tangent mask.
-fn edge_weight(angle: f64) -> f64 {
+pub(super) fn edge_weight(angle: f64) -> f64 {
     let c = angle.cos();
     1.0 + c + (angle / 2.0).cos() * (2.0 * (9.0 + c)).sqrt()
 }

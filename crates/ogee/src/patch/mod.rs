@@ -2,6 +2,7 @@
 
 mod build;
 mod chain;
+pub(crate) mod dart;
 mod location;
 pub(crate) mod masks;
 mod neighbourhood;

@@ -18,13 +18,11 @@ impl Neighbourhood {
     pub(crate) fn new(whole: &Level, faces: &[FaceId]) -> Neighbourhood {
         let topology = whole.topology();
         let corners = |f: FaceId| topology.halfedges(f).map(|h| topology.origin(h).0);
-        let mut vertices: Vec<u32> = faces.iter().flat_map(|&f| corners(f)).collect();
-        vertices.sort_unstable();
-        vertices.dedup();
-        let own = |v: u32| vertices.partition_point(|&other| other < v) as u32;
+        let vertices = in_order(topology.vertex_count(), faces.iter().flat_map(|&f| corners(f)));
+        let own = numbers(topology.vertex_count(), &vertices);
         let mut list = FaceList::with_capacity(faces.len(), 4 * faces.len());
         for &f in faces {
-            list.push(&corners(f).map(own).collect::<Vec<u32>>());
+            list.push(&corners(f).map(&own).collect::<Vec<u32>>());
         }
         let own_topology = Topology::of_part(&list, vertices.len());
         let mut sharp = Vec::new();
@@ -48,7 +46,7 @@ impl Neighbourhood {
             sharp_vertices,
             Vec::new(),
         );
-        Neighbourhood { level, vertices: vertices.into_iter().map(VertexId).collect() }
+        Neighbourhood { level, vertices: vertices.iter().copied().map(VertexId).collect() }
     }
 
     /// Its vertex for a vertex of the whole level.
@@ -65,13 +63,45 @@ impl Neighbourhood {
 /// The given faces and all that touch them, each once, in order.
 pub(crate) fn with_ring(level: &Level, faces: &[FaceId]) -> Vec<FaceId> {
     let topology = level.topology();
-    let mut out: Vec<FaceId> = faces
+    let touching = faces
         .iter()
         .flat_map(|&f| topology.halfedges(f))
         .flat_map(|h| topology.ring(topology.origin(h)))
-        .map(|h| topology.face(h))
-        .collect();
-    out.sort_unstable();
-    out.dedup();
+        .map(|h| topology.face(h).0);
+    in_order(topology.face_count(), touching).into_iter().map(FaceId).collect()
+}
+
+/// Where this share of all elements is wanted, marks beat sorting.
+const DENSE: usize = 64;
+
+/// Numbers below a count, each once, in order.
+fn in_order(count: usize, numbers: impl Iterator<Item = u32>) -> Vec<u32> {
+    let mut out: Vec<u32> = numbers.collect();
+    if out.len() < count / DENSE {
+        out.sort_unstable();
+        out.dedup();
+        return out;
+    }
+    let mut marked = vec![false; count];
+    for &number in &out {
+        marked[number as usize] = true;
+    }
+    out.clear();
+    out.extend((0..count as u32).filter(|&number| marked[number as usize]));
     out
+}
+
+/// For a number in a list that is in order its place there.
+fn numbers(count: usize, list: &[u32]) -> impl Fn(u32) -> u32 + '_ {
+    let mut places = Vec::new();
+    if list.len() >= count / DENSE {
+        places.resize(count, 0);
+        for (place, &number) in (0..).zip(list) {
+            places[number as usize] = place;
+        }
+    }
+    move |number| match places.get(number as usize) {
+        Some(&place) => place,
+        None => list.partition_point(|&other| other < number) as u32,
+    }
 }

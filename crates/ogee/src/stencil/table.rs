@@ -75,9 +75,11 @@ impl StencilTable {
 
     /// Appends the rows of another table.
     pub(crate) fn extend(&mut self, other: &StencilTable) {
-        for i in 0..other.len() {
-            self.append(other.row(i));
-        }
+        let offset = self.sources.len();
+        u32::try_from(offset + other.sources.len()).expect("fewer than 2^32 weights in a table");
+        self.starts.extend(other.starts.iter().skip(1).map(|end| end + offset as u32));
+        self.sources.extend_from_slice(&other.sources);
+        self.weights.extend_from_slice(&other.weights);
     }
 
     /// Number of rows.
