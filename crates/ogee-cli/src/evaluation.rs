@@ -197,7 +197,8 @@ impl<'a> Evaluation<'a> {
 /// The principal curvatures at a point, where they exist.
 fn curvatures(values: &Samples, i: usize) -> Option<[f64; 2]> {
     let flags = values.flags[i];
-    if flags.contains(Flags::AT_EXTRAORDINARY) || flags.contains(Flags::UNBOUNDED_CURVATURE) {
+    let without = [Flags::AT_EXTRAORDINARY, Flags::UNBOUNDED_CURVATURE, Flags::NORMAL_UNDEFINED];
+    if without.iter().any(|&flag| flags.contains(flag)) {
         return None;
     }
     let at = |values: &[Vec3]| values.get(i).copied();

@@ -449,7 +449,7 @@ fn an_address_off_the_surface_is_refused_with_its_line() {
         (
             "2,,1.0000000000000002,0",
             "outside_square",
-            "the parameters (1.0000000000000002, 0) are not in [0, 1]",
+            "the parameters (1.0000000000000002, 0.0) are not in [0, 1]",
         ),
     ];
     let folder = with_prism();

@@ -15,6 +15,7 @@ use crate::cage::CageArguments;
 use crate::error::{Failure, Finding};
 use crate::evaluation::{Evaluation, Special};
 use crate::names::{DERIVATIVES, Format, formats};
+use crate::output::Stopped;
 use crate::report::{Console, Table, bytes};
 use crate::system;
 
@@ -122,7 +123,16 @@ impl Eval {
         let source = points.map_or(Source::Grid(grid), Source::Points);
         let mut evaluation = Evaluation::new(&surface, format, self.derivatives);
         let start = Instant::now();
-        let file_bytes = destination.write_unless_refused(|out| evaluation.run(source, &name, out))?;
+        // Nothing in a grid can be refused, so nothing has to wait.
+        let file_bytes = match source {
+            Source::Grid(_) => destination.write(|out| {
+                evaluation.run(source, &name, out).map_err(|stopped| match stopped {
+                    Stopped::Unwritten(error) => error,
+                    Stopped::Refused(failure) => std::io::Error::other(failure.first().line()),
+                })
+            }),
+            Source::Points(_) => destination.write_unless_refused(|out| evaluation.run(source, &name, out)),
+        }?;
         let Evaluation { samples, special, read, evaluate, .. } = evaluation;
         let write = start.elapsed().as_secs_f64() - read - evaluate;
         let seconds = Seconds { read: seconds.read + read, evaluate, write, ..seconds };

@@ -19,6 +19,8 @@ pub(super) fn at_corner(
     let basis = table.basis(tail);
     let outward = walk.outward(basis);
     let mut flags = flags_at(basis);
+    // Sharp edges in line span no plane, though there is one.
+    let masks = masks.filter(|[a, b]| unit_normal(*a, *b).is_some());
     let mut tangents = masks.unwrap_or_else(|| {
         let mut net = [[0.0; 4]; 16];
         walk.go(table, points, number, tail, last_step(basis));

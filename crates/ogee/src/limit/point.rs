@@ -1,6 +1,6 @@
 //! What evaluation gives: points, how much is wanted of them, and flags.
 
-use crate::math::{SurfaceJet, Vec3};
+use crate::math::{Curvature, SurfaceJet, Vec3};
 
 /// How many derivatives are wanted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -70,6 +70,22 @@ pub struct LimitJet {
     pub normal: Vec3,
     /// What is special about the point.
     pub flags: Flags,
+}
+
+impl LimitJet {
+    /// Curvatures; `None` where there are none: at an extraordinary vertex, and where the normal is undefined.
+    pub fn curvature(&self) -> Option<Curvature> {
+        if self.has_curvature() { self.jet.curvature() } else { None }
+    }
+
+    /// Derivatives of the unit normal along `u` and `v`; `None` where there are no curvatures.
+    pub fn normal_derivatives(&self) -> Option<[Vec3; 2]> {
+        if self.has_curvature() { self.jet.normal_derivatives() } else { None }
+    }
+
+    fn has_curvature(&self) -> bool {
+        !self.flags.contains(Flags::AT_EXTRAORDINARY) && !self.flags.contains(Flags::NORMAL_UNDEFINED)
+    }
 }
 
 /// Many points, as arrays in the order in which they were asked for. What was not asked for is empty.

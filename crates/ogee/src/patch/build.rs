@@ -205,7 +205,7 @@ impl Builder {
         });
         let mut pending = pending.iter();
         for (rings, valences) in chunks {
-            let mut first = self.table.rings.len() as u32;
+            let mut first = self.ring_start();
             self.table.rings.extend(rings);
             for (valence, &root) in valences.into_iter().zip(&mut pending) {
                 let Some(valence) = valence else {
@@ -231,6 +231,11 @@ impl Builder {
             kinds.push(ChainBasis::new(kind));
             kinds.len() as u32 - 1
         })
+    }
+
+    /// Where the next ring begins.
+    fn ring_start(&self) -> u32 {
+        u32::try_from(self.table.rings.len()).expect("fewer than 2^32 numbers in the rings of a table")
     }
 
     fn tail(&mut self, tail: Tail) -> Node {
@@ -276,7 +281,7 @@ impl Builder {
                     self.leaf(target.slot, net);
                 }
                 Found::PlainTail { corner, valence, ring } => {
-                    let first = self.table.rings.len() as u32;
+                    let first = self.ring_start();
                     for vertex in ring {
                         let number = points.vertex(vertex);
                         self.table.rings.push(number);
@@ -290,7 +295,7 @@ impl Builder {
                     self.leaf(target.slot, net);
                 }
                 Found::Tail { corner, kind, ring } => {
-                    let first = self.table.rings.len() as u32;
+                    let first = self.ring_start();
                     for point in ring {
                         let number = points.number(point);
                         self.table.rings.push(number);

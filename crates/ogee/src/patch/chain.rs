@@ -16,6 +16,8 @@
 //! first sharp edge, and there is one neighbour more than diagonals. A [`Kind`] decides the rest, so each kind is worked
 //! out once: a model of it is refined by the ordinary masks, and what they say is kept as weights.
 
+use std::f64::consts::{PI, TAU};
+
 use super::dart::Dart;
 use super::surroundings::{Mirrored, Surroundings};
 use super::{masks, smooth};
@@ -231,7 +233,7 @@ impl ChainBasis {
 
     /// Memory in bytes, about.
     pub(crate) fn bytes(&self) -> usize {
-        let sums = |sums: &Sums| 4 * sums.ends.len() + 16 * sums.groups.len() + 2 * sums.sources.len();
+        let sums = |sums: &Sums| 4 * sums.ends.len() + 16 * sums.groups.len() + 4 * sums.sources.len();
         size_of::<ChainBasis>()
             + sums(&self.face_points)
             + sums(&self.fine)
@@ -280,7 +282,19 @@ impl ChainBasis {
         let count = self.kind.inner_count();
         match self.kind {
             Kind::Cone { .. } | Kind::Corner { .. } => unit(count, 0),
-            Kind::Smooth { .. } | Kind::Crease { .. } => mask_weights(self.kind, |frame| frame.position),
+            Kind::Smooth { valence } => {
+                let n = f64::from(valence);
+                let [vertex, edge, diagonal] = [n * n, 4.0, 1.0].map(|weight| weight / (n * (n + 5.0)));
+                let weight = |i: usize| if i % 2 == 1 { edge } else { diagonal };
+                (0..count).map(|i| if i == 0 { vertex } else { weight(i) }).collect()
+            }
+            Kind::Crease { .. } => {
+                let mut weights = unit(count, 0);
+                weights[0] = 4.0 / 6.0;
+                weights[1] += 1.0 / 6.0;
+                weights[count - 1] += 1.0 / 6.0;
+                weights
+            }
             Kind::Dart { valence, crease } => Dart::new(valence as usize).seen_from(crease as usize).0,
         }
     }
@@ -288,37 +302,20 @@ impl ChainBasis {
     /// The largest eigenvalue below one.
     fn subdominant(&self) -> f64 {
         match self.kind {
-            Kind::Smooth { valence } => {
-                return masks::subdominant(std::f64::consts::TAU / f64::from(valence));
-            }
+            Kind::Smooth { valence } => masks::subdominant(TAU / f64::from(valence)),
             Kind::Dart { valence, .. } => {
                 let [along, across] = Dart::new(valence as usize).eigenvalues;
-                return along.max(across);
+                along.max(across)
             }
-            _ => {}
+            // Edges and diagonals move alike there, with the vertex at rest: l^2 - 3/4 l + 1/16 = 0.
+            Kind::Cone { .. } => (3.0 + 5.0_f64.sqrt()) / 8.0,
+            // Along the sharp edges 1/2.
+            Kind::Crease { faces, .. } | Kind::Corner { faces, .. } => {
+                masks::subdominant(PI / f64::from(faces)).max(1.0 / 2.0)
+            }
         }
-        let count = self.kind.inner_count();
-        let rows: Vec<_> = (0..count).map(|row| self.step_of(row)).collect();
-        // Of no symmetry, so that every mode is in it.
-        let mut values: Vec<f64> = (0..count).map(|i| (i as f64 * 1.7).sin() + 0.1 * i as f64).collect();
-        let mut ratio = 1.0;
-        for _ in 0..POWER_STEPS {
-            let next: Vec<f64> =
-                rows.iter().map(|row| row.iter().map(|&(source, w)| w * values[source]).sum()).collect();
-            let mean: f64 = self.position.iter().zip(&next).map(|(w, x)| w * x).sum();
-            let next: Vec<f64> = next.iter().map(|x| x - mean).collect();
-            let size = |values: &[f64]| values.iter().map(|x| x * x).sum::<f64>().sqrt();
-            ratio = size(&next) / size(&values);
-            let scale = 1.0 / size(&next);
-            values = next.iter().map(|x| x * scale).collect();
-        }
-        ratio
     }
 }
-
-/// After so many steps every mode but the wanted one has gone: the slowest ratio of eigenvalues is below 0.7 where it
-/// matters.
-const POWER_STEPS: usize = 128;
 
 fn unit(count: usize, at: usize) -> Vec<f64> {
     let mut weights = vec![0.0; count];
@@ -326,44 +323,42 @@ fn unit(count: usize, at: usize) -> Vec<f64> {
     weights
 }
 
-/// The weights of a linear mask, one inner point at a time.
-fn mask_weights(kind: Kind, part: impl Fn(&masks::Frame) -> Vec3) -> Vec<f64> {
-    let count = kind.inner_count();
-    let value = |at: usize, which: usize| if at == which { Vec3::new(1.0, 0.0, 0.0) } else { Vec3::ZERO };
-    let of_point = |which: usize| {
-        let edges: Vec<Vec3> = (1..count).step_by(2).map(|at| value(at, which)).collect();
-        let diagonals: Vec<Vec3> = (2..count).step_by(2).map(|at| value(at, which)).collect();
-        let frame = match kind {
-            Kind::Smooth { .. } => masks::smooth(value(0, which), &edges, &diagonals),
-            Kind::Crease { .. } => masks::crease(value(0, which), &edges, &diagonals),
-            Kind::Corner { .. } | Kind::Cone { .. } | Kind::Dart { .. } => {
-                masks::corner(value(0, which), &edges)
-            }
-        };
-        part(&frame).x
-    };
-    (0..count).map(of_point).collect()
-}
-
 /// Tangent masks where they exist: on a crease with more than three faces, at a corner with more than two, at a cone
 /// there is no tangent plane.
 fn tangent_weights(kind: Kind) -> Option<[Vec<f64>; 2]> {
-    let [first, second] = match kind {
+    match kind {
         Kind::Smooth { valence } if valence > 2 => {
-            let [along, across] = [0, 1].map(|which| mask_weights(kind, |frame| frame.tangents[which]));
-            let (sin, cos) = (std::f64::consts::TAU / f64::from(valence)).sin_cos();
-            let other = along.iter().zip(&across).map(|(a, b)| cos * a + sin * b).collect();
-            [along, other]
+            // Towards the quad's own edges.
+            let (sin, cos) = (TAU / f64::from(valence)).sin_cos();
+            let mut tangents = [vec![0.0], vec![0.0]];
+            for [along, across] in masks::smooth_tangents(valence as usize).flatten() {
+                tangents[0].push(along);
+                tangents[1].push(cos * along + sin * across);
+            }
+            Some(tangents)
         }
         Kind::Crease { faces: 1..=3, .. } | Kind::Corner { faces: 2, .. } => {
-            [0, 1].map(|which| mask_weights(kind, |frame| frame.tangents[which]))
+            Some([0, 1].map(|which| few_weights(kind, which)))
         }
-        Kind::Dart { valence, crease } => {
-            return Dart::new(valence as usize).seen_from(crease as usize).1;
-        }
-        _ => return None,
+        Kind::Dart { valence, crease } => Dart::new(valence as usize).seen_from(crease as usize).1,
+        _ => None,
+    }
+}
+
+/// The weights of a tangent mask of a sector of few faces, one point at a time: the mask is linear.
+fn few_weights(kind: Kind, which: usize) -> Vec<f64> {
+    let count = kind.inner_count();
+    let weight = |source: usize| {
+        let value = |at: usize| if at == source { Vec3::new(1.0, 0.0, 0.0) } else { Vec3::ZERO };
+        let edges: Vec<Vec3> = (1..count).step_by(2).map(value).collect();
+        let diagonals: Vec<Vec3> = (2..count).step_by(2).map(value).collect();
+        let frame = match kind {
+            Kind::Crease { .. } => masks::crease(value(0), &edges, &diagonals),
+            _ => masks::corner(value(0), &edges),
+        };
+        frame.tangents[which].x
     };
-    Some([first, second])
+    (0..count).map(weight).collect()
 }
 
 /// The number of a fine point; one that is new is added.
@@ -509,6 +504,43 @@ impl simd::Kernel for Step<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Limits and eigenvalues in closed form are those of the rows that refinement gave.
+    #[test]
+    fn closed_forms_are_those_of_the_rows() {
+        let mut kinds: Vec<Kind> = [3, 5, 8].map(|valence| Kind::Smooth { valence }).to_vec();
+        kinds.extend([3, 4, 7].map(|valence| Kind::Cone { valence }));
+        kinds.extend([1, 3, 4, 6].map(|faces| Kind::Crease { faces, position: faces / 2 }));
+        kinds.extend([2, 3, 5].map(|faces| Kind::Corner { faces, position: 0 }));
+        kinds.extend([4, 7].map(|valence| Kind::Dart { valence, crease: 1 }));
+        for kind in kinds {
+            let basis = ChainBasis::new(kind);
+            let count = kind.inner_count();
+            let rows: Vec<_> = (0..count).map(|row| basis.step_of(row)).collect();
+            let mut again = vec![0.0; count];
+            for (&weight, row) in basis.position.iter().zip(&rows) {
+                for &(source, share) in row {
+                    again[source] += weight * share;
+                }
+            }
+            assert!(again.iter().zip(&basis.position).all(|(a, b)| (a - b).abs() < 1e-15), "{kind:?}");
+            // Powers of the rows on values of no symmetry.
+            let mut values: Vec<f64> = (0..count).map(|i| (i as f64 * 1.7).sin() + 0.1 * i as f64).collect();
+            let mut ratio = 0.0;
+            for _ in 0..2000 {
+                let next: Vec<f64> =
+                    rows.iter().map(|row| row.iter().map(|&(source, w)| w * values[source]).sum()).collect();
+                let mean: f64 = basis.position.iter().zip(&next).map(|(w, x)| w * x).sum();
+                let size = |values: &[f64]| values.iter().map(|x| x * x).sum::<f64>().sqrt();
+                let next: Vec<f64> = next.iter().map(|x| x - mean).collect();
+                ratio = size(&next) / size(&values);
+                let scale = 1.0 / size(&next);
+                values = next.iter().map(|x| x * scale).collect();
+            }
+            // Where two modes shrink alike, powers come near like 1/n only.
+            assert!((ratio - basis.eigenvalue).abs() < 1e-3, "{kind:?}: {ratio} {}", basis.eigenvalue);
+        }
+    }
 
     #[test]
     fn the_quick_step_is_the_general_step() {

@@ -76,7 +76,7 @@ pub enum LocationError {
         corners: u32,
     },
     /// Parameters outside `[0, 1]`, or not numbers.
-    #[error("the parameters ({u}, {v}) are not in [0, 1]")]
+    #[error("the parameters ({u:?}, {v:?}) are not in [0, 1]")]
     OutsideSquare {
         /// The first.
         u: f64,

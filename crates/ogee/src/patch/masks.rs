@@ -26,19 +26,30 @@ pub(super) fn edge_weight(angle: f64) -> f64 {
     1.0 + c + (angle / 2.0).cos() * (2.0 * (9.0 + c)).sqrt()
 }
 
+/// Weights of two tangents around a smooth vertex of valence `n`, for each `i` on neighbour and on diagonal.
+pub(super) fn smooth_tangents(n: usize) -> impl Iterator<Item = [[f64; 2]; 2]> {
+    let angle = TAU / n as f64;
+    let weight = edge_weight(angle);
+    (0..n).map(move |i| {
+        let (here, next) = (i as f64 * angle, (i + 1) as f64 * angle);
+        let edge = [weight * here.cos(), weight * here.sin()];
+        [edge, [here.cos() + next.cos(), here.sin() + next.sin()]]
+    })
+}
+
 /// At a smooth interior vertex: neighbours and diagonals counter-clockwise, diagonal `i` between neighbours `i` and
 /// `i + 1`.
 pub(crate) fn smooth(vertex: Vec3, edges: &[Vec3], diagonals: &[Vec3]) -> Frame {
     let n = edges.len() as f64;
-    let angle = TAU / n;
-    let weight = edge_weight(angle);
     let mut position = n * n * vertex;
     let mut tangents = [Vec3::ZERO; 2];
-    for (i, (&edge, &diagonal)) in edges.iter().zip(diagonals).enumerate() {
+    for ((&edge, &diagonal), [on_edge, on_diagonal]) in
+        edges.iter().zip(diagonals).zip(smooth_tangents(edges.len()))
+    {
         position += 4.0 * edge + diagonal;
-        let (here, next) = (i as f64 * angle, (i + 1) as f64 * angle);
-        tangents[0] += weight * here.cos() * edge + (here.cos() + next.cos()) * diagonal;
-        tangents[1] += weight * here.sin() * edge + (here.sin() + next.sin()) * diagonal;
+        for which in 0..2 {
+            tangents[which] += on_edge[which] * edge + on_diagonal[which] * diagonal;
+        }
     }
     Frame { position: position / (n * (n + 5.0)), tangents }
 }
