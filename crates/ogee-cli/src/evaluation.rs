@@ -250,7 +250,7 @@ mod tests {
             (Flags::NONE, [true, true, true]),
             (Flags::BEYOND_NMAX, [true, true, true]),
             (Flags::UNBOUNDED_CURVATURE, [true, true, false]),
-            (Flags::NORMAL_UNDEFINED, [true, false, true]),
+            (Flags::NORMAL_UNDEFINED, [true, false, false]),
             (Flags::NORMAL_ONE_SIDED, [true, true, true]),
             (Flags::AT_EXTRAORDINARY, [false, true, false]),
             (Flags::AT_EXTRAORDINARY.with(Flags::UNBOUNDED_CURVATURE), [false, true, false]),

@@ -21,8 +21,11 @@ impl Neighbourhood {
         let vertices = in_order(topology.vertex_count(), faces.iter().flat_map(|&f| corners(f)));
         let own = numbers(topology.vertex_count(), &vertices);
         let mut list = FaceList::with_capacity(faces.len(), 4 * faces.len());
+        let mut face = Vec::new();
         for &f in faces {
-            list.push(&corners(f).map(&own).collect::<Vec<u32>>());
+            face.clear();
+            face.extend(corners(f).map(&own));
+            list.push(&face);
         }
         let own_topology = Topology::of_part(&list, vertices.len());
         let mut sharp = Vec::new();

@@ -31,7 +31,7 @@ impl Below {
 
     /// Adds a vertex of the level as weights on the cage.
     fn write(&self, vertex: u32, share: f64, row: &mut Row) {
-        let mut mask = Row::new();
+        let mut mask = Row::with_capacity(32);
         self.part.level.child_mask(vertex, &mut mask);
         for &(source, weight) in mask.weights() {
             match &self.above {
@@ -56,7 +56,13 @@ pub(super) struct Points<'a> {
     vertices: Vec<u32>,
     mirrored: HashMap<Vec<(u32, i32)>, u32>,
     /// What has got a number, in that order.
-    new: Vec<Mirrored>,
+    new: Vec<New>,
+}
+
+/// A point that has got a number.
+enum New {
+    Vertex(u32),
+    Mirrored(Mirrored),
 }
 
 const UNKNOWN: u32 = u32::MAX;
@@ -76,7 +82,7 @@ impl<'a> Points<'a> {
         if *number == UNKNOWN {
             *number = self.next;
             self.next += 1;
-            self.new.push(vec![(vertex, 1.0)]);
+            self.new.push(New::Vertex(vertex));
         }
         *number
     }
@@ -88,7 +94,7 @@ impl<'a> Points<'a> {
         // Weights of mirrored points are small whole numbers.
         let key = point.iter().map(|&(vertex, weight)| (vertex, weight as i32)).collect();
         *self.mirrored.entry(key).or_insert_with(|| {
-            self.new.push(point);
+            self.new.push(New::Mirrored(point));
             self.next += 1;
             self.next - 1
         })
@@ -97,11 +103,13 @@ impl<'a> Points<'a> {
     /// The new points as weights on the cage.
     pub(super) fn rows(&self) -> StencilTable {
         StencilTable::from_rows(self.new.len(), |i, row| {
-            for &(vertex, share) in &self.new[i] {
-                match self.below {
-                    None => row.add(VertexId(vertex), share),
-                    Some(below) => below.write(vertex, share, row),
-                }
+            let mut add = |vertex: u32, share: f64| match self.below {
+                None => row.add(VertexId(vertex), share),
+                Some(below) => below.write(vertex, share, row),
+            };
+            match &self.new[i] {
+                New::Vertex(vertex) => add(*vertex, 1.0),
+                New::Mirrored(terms) => terms.iter().for_each(|&(vertex, share)| add(vertex, share)),
             }
             row.expand_face_points(|_, _, _| ());
         })

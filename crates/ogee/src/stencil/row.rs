@@ -18,6 +18,11 @@ impl Row {
         Row::default()
     }
 
+    /// An empty row with room for so many weights on vertices.
+    pub(crate) fn with_capacity(count: usize) -> Row {
+        Row { vertices: Vec::with_capacity(count), faces: Vec::with_capacity(count / 4) }
+    }
+
     /// Forgets all weights; keeps the memory.
     pub fn clear(&mut self) {
         self.vertices.clear();
