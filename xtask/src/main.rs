@@ -24,10 +24,11 @@ fn main() -> Result<()> {
             Ok(())
         }
         ["bench", "limit"] => bench::limit::compare(&mut std::io::stdout()),
+        ["bench", "limit", task] => bench::limit::compare_times(&mut std::io::stdout(), task),
         ["bench-worker", ref rest @ ..] => {
             println!("{}", bench::worker::run(rest)?);
             Ok(())
         }
-        _ => bail!("usage: cargo xtask models [DIR] | bench [limit]"),
+        _ => bail!("usage: cargo xtask models [DIR] | bench [limit [TASK]]"),
     }
 }

@@ -102,3 +102,15 @@ fn faces_that_the_scheme_leaves_out_are_hidden() {
     assert_eq!(inside, [5, 6]);
     assert_eq!(table.locate(FaceId(0), None, 0.5, 0.5).unwrap_err().code(), "hidden_face");
 }
+
+/// A location leads to others of its face, under the same check.
+#[test]
+fn a_location_moves_within_its_face() {
+    let mesh = cages::cube();
+    let table = PatchTable::new(&Level::new(&mesh).unwrap());
+    let start = table.locate(FaceId(3), None, 0.0, 0.0).unwrap();
+    assert_eq!(start.at(0.25, 1.0), table.locate(FaceId(3), None, 0.25, 1.0));
+    for (u, v) in [(-0.1, 0.5), (0.5, 1.1), (f64::NAN, 0.5), (0.5, f64::INFINITY)] {
+        assert!(matches!(start.at(u, v), Err(LocationError::OutsideSquare { .. })));
+    }
+}

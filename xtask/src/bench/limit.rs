@@ -70,16 +70,9 @@ pub(super) struct Peers {
 /// # Errors
 /// If something cannot be run, or results differ that should be the same.
 pub(crate) fn compare(out: &mut impl Write) -> Result<()> {
-    let peers = Peers { opensubdiv: peers::opensubdiv(), blender: peers::blender() };
-    let folder = tempfile::tempdir()?;
-    let courses = [cages::regular(), cages::valences_3_and_6()?, cages::valences_3_to_8()?, cages::mixed()]
-        .into_iter()
-        .map(|cage| course(folder.path(), cage))
-        .collect::<Result<Vec<Course>>>()?;
-    heading(&peers, out)?;
-    for Course { cage, .. } in &courses {
-        writeln!(out, "- Cage \"{}\": {}.", cage.name, cage.about)?;
-    }
+    let (peers, folder) = (Peers::find(), tempfile::tempdir()?);
+    let courses = courses(folder.path())?;
+    heading(&peers, &courses, out)?;
     let mut faults = Vec::new();
     let (opensubdiv, blender) = (peers.opensubdiv.as_ref().ok(), peers.blender.as_ref().ok());
     writeln!(out, "\n{}", accuracy::table(opensubdiv, blender, folder.path())?)?;
@@ -87,10 +80,35 @@ pub(crate) fn compare(out: &mut impl Write) -> Result<()> {
         writeln!(out, "{}", agreement(opensubdiv, &courses, folder.path(), &mut faults)?)?;
     }
     writeln!(out, "{}", set_up(&peers, &courses)?)?;
-    writeln!(out, "{}", speed::ratios(&peers, &courses)?)?;
+    writeln!(out, "{}", speed::ratios(&peers, &courses, "")?)?;
     writeln!(out, "{}", speed::threads(&courses, &mut faults)?)?;
     ensure!(faults.is_empty(), "{}", faults.join("\n"));
     Ok(())
+}
+
+/// Times beside the peers alone, of the tasks whose names begin so.
+///
+/// # Errors
+/// If something cannot be run.
+pub(crate) fn compare_times(out: &mut impl Write, task: &str) -> Result<()> {
+    let (peers, folder) = (Peers::find(), tempfile::tempdir()?);
+    let courses = courses(folder.path())?;
+    heading(&peers, &courses, out)?;
+    writeln!(out, "\n{}", speed::ratios(&peers, &courses, task)?)?;
+    Ok(())
+}
+
+impl Peers {
+    fn find() -> Peers {
+        Peers { opensubdiv: peers::opensubdiv(), blender: peers::blender() }
+    }
+}
+
+fn courses(folder: &Path) -> Result<Vec<Course>> {
+    [cages::regular(), cages::valences_3_and_6()?, cages::valences_3_to_8()?, cages::mixed()]
+        .into_iter()
+        .map(|cage| course(folder, cage))
+        .collect()
 }
 
 fn course(folder: &Path, cage: BenchCage) -> Result<Course> {
@@ -104,7 +122,7 @@ fn course(folder: &Path, cage: BenchCage) -> Result<Course> {
 }
 
 /// The machine, and who takes part in which version.
-fn heading(peers: &Peers, out: &mut impl Write) -> Result<()> {
+fn heading(peers: &Peers, courses: &[Course], out: &mut impl Write) -> Result<()> {
     let answer = |program: &str, argument: &str| {
         let output = Command::new(program).arg(argument).output();
         output.map_or_else(
@@ -132,6 +150,9 @@ fn heading(peers: &Peers, out: &mut impl Write) -> Result<()> {
     match &peers.blender {
         Ok(found) => writeln!(out, "- Blender {} as a Python module.", found.version)?,
         Err(missing) => writeln!(out, "- Blender is missing: {missing}.")?,
+    }
+    for Course { cage, .. } in courses {
+        writeln!(out, "- Cage \"{}\": {}.", cage.name, cage.about)?;
     }
     Ok(())
 }

@@ -28,12 +28,12 @@ impl Race {
     }
 }
 
-/// One table of times a point and ratios, on one core.
-pub(super) fn ratios(peers: &Peers, courses: &[Course]) -> Result<Table> {
+/// One table of times a point and ratios, on one core, of the tasks whose names begin so.
+pub(super) fn ratios(peers: &Peers, courses: &[Course], task_name: &str) -> Result<Table> {
     let ours = peers::ours(1)?;
     let mut table =
         Table::new(&["task", "cage", "ogee ns a point", "other", "its ns a point", "other / ogee"]);
-    for race in races(peers)? {
+    for race in races(peers)?.into_iter().filter(|race| race.title.starts_with(task_name)) {
         for course in race.courses.iter().map(|&number| &courses[number]) {
             let (task, last) = course.task(race.places);
             let all: Vec<&Contestant> = std::iter::once(&ours).chain(&race.peers).collect();

@@ -94,9 +94,10 @@ fn by_faces(mesh: &ControlMesh, what: Derivatives, side: u32) -> Result<Value> {
         let prepared = start.elapsed();
         block.clear();
         for face in (0..mesh.faces.len() as u32).map(FaceId) {
+            let corner = table.locate(face, None, 0.0, 0.0)?;
             for j in 0..side {
                 for i in 0..side {
-                    block.push(table.locate(face, None, centre(i), centre(j))?);
+                    block.push(corner.at(centre(i), centre(j))?);
                     if block.len() == size {
                         surface.eval_into(&block, what, &mut results);
                         take(&results);

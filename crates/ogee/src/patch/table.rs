@@ -147,14 +147,11 @@ impl PatchTable {
             }
             Some(corner) => first + corner,
         };
-        let inside = |t: f64| (0.0..=1.0).contains(&t);
-        if !(inside(u) && inside(v)) {
-            return Err(LocationError::OutsideSquare { u, v });
-        }
+        let location = Location { root, u: 0.0, v: 0.0 }.at(u, v)?;
         if !self.is_visible(root as usize) {
             return Err(LocationError::HiddenFace { face });
         }
-        Ok(Location { root, u, v })
+        Ok(location)
     }
 
     /// How many pieces there are, and what they cost.
