@@ -330,3 +330,53 @@ pub(super) fn tangents_at_origin(net: &Net) -> [Vec3; 2] {
     // Coefficients of u and of v.
     [net[1], net[4]].map(narrow)
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::math::simd::PLAIN;
+    use crate::mesh::{Crease, FaceId, Sharpness, shapes};
+    use crate::rules::Level;
+    use crate::{Derivatives, LimitSurface, PatchTable, Samples};
+
+    /// Leaves, chains and splits, alone and four at a time, on wide registers and in plain code. On a processor without
+    /// wide registers both are plain.
+    #[test]
+    fn wide_registers_give_the_bits_of_plain_code() {
+        let mut creased = shapes::disk(7, 2);
+        creased.creases.push(Crease { vertices: [0, 1], sharpness: Sharpness::Infinite });
+        for mesh in [shapes::studded_torus(12, 8, 4), shapes::cube(), creased] {
+            let table = PatchTable::new(&Level::new(&mesh).unwrap());
+            let surface = LimitSurface::new(&table, &mesh.points);
+            let mut at = Vec::new();
+            for face in (0..mesh.faces.len() as u32).map(FaceId) {
+                let corner = table.locate(face, None, 0.0, 0.0).unwrap();
+                for t in [0.0, 0.01, 0.2, 0.31, 0.5, 0.77, 0.999] {
+                    at.extend([corner.at(t, 0.3 * t).unwrap(), corner.at(1.0 - t, t * t).unwrap()]);
+                }
+            }
+            at.truncate(4096);
+            let results = |plain: bool| -> Samples {
+                PLAIN.set(plain);
+                let samples = surface.eval_batch(&at, Derivatives::Second);
+                PLAIN.set(false);
+                samples
+            };
+            let (plain, wide) = (results(true), results(false));
+            let bits = |samples: &Samples| -> Vec<u64> {
+                let arrays = [
+                    &samples.position,
+                    &samples.du,
+                    &samples.dv,
+                    &samples.normal,
+                    &samples.duu,
+                    &samples.duv,
+                    &samples.dvv,
+                ];
+                let vectors = arrays.into_iter().flatten();
+                vectors.flat_map(|&v| <[f64; 3]>::from(v)).map(f64::to_bits).collect()
+            };
+            assert_eq!(bits(&plain), bits(&wide));
+            assert_eq!(plain.flags, wide.flags);
+        }
+    }
+}

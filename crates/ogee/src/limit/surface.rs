@@ -21,7 +21,7 @@ pub struct LimitSurface<'a> {
 }
 
 impl<'a> LimitSurface<'a> {
-    /// The surface of a cage in one pose.
+    /// The surface of a cage in one pose. Coordinates of 1e300 and more leave the range of numbers on the way.
     ///
     /// # Panics
     /// If there are fewer points than the cage of the table has vertices.
@@ -53,7 +53,7 @@ impl<'a> LimitSurface<'a> {
     /// of an extraordinary vertex.
     ///
     /// # Panics
-    /// If the location is of another table.
+    /// If the location is of a larger table; one of another table of the same size gives a point of no meaning.
     pub fn eval(&self, at: Location) -> SurfacePoint {
         let ([position, du, dv, ..], normal, flags) = self.lone(at, Derivatives::First);
         SurfacePoint { position, du, dv, normal, flags }
@@ -62,7 +62,7 @@ impl<'a> LimitSurface<'a> {
     /// Second derivatives as well.
     ///
     /// # Panics
-    /// If the location is of another table.
+    /// If the location is of a larger table; one of another table of the same size gives a point of no meaning.
     pub fn jet(&self, at: Location) -> LimitJet {
         let ([position, du, dv, duu, duv, dvv], normal, flags) = self.lone(at, Derivatives::Second);
         LimitJet { jet: SurfaceJet { position, du, dv, duu, duv, dvv }, normal, flags }
@@ -106,7 +106,7 @@ impl<'a> LimitSurface<'a> {
     /// some thousands at a time.
     ///
     /// # Panics
-    /// If a location is of another table.
+    /// If a location is of a larger table; one of another table of the same size gives a point of no meaning.
     pub fn eval_batch(&self, at: &[Location], what: Derivatives) -> Samples {
         let mut samples = Samples::default();
         self.eval_into(at, what, &mut samples);
@@ -116,7 +116,7 @@ impl<'a> LimitSurface<'a> {
     /// [`LimitSurface::eval_batch`] into memory that is there already: fresh memory costs more than the arithmetic.
     ///
     /// # Panics
-    /// If a location is of another table.
+    /// If a location is of a larger table; one of another table of the same size gives a point of no meaning.
     pub fn eval_into(&self, at: &[Location], what: Derivatives, out: &mut Samples) {
         out.resize(at.len(), what);
         self.batch(what).run(at, out.slices());

@@ -38,6 +38,10 @@ pub(crate) trait Kernel {
 /// Runs a kernel as compiled for this processor.
 #[inline]
 pub(crate) fn dispatch<K: Kernel>(kernel: K) -> K::Output {
+    #[cfg(test)]
+    if PLAIN.get() {
+        return kernel.run::<Plain>();
+    }
     #[cfg(target_arch = "x86_64")]
     if std::arch::is_x86_feature_detected!("avx2") {
         // Sound: the processor has just been asked.
@@ -45,6 +49,12 @@ pub(crate) fn dispatch<K: Kernel>(kernel: K) -> K::Output {
         return unsafe { wide::run(kernel) };
     }
     kernel.run::<Plain>()
+}
+
+#[cfg(test)]
+thread_local! {
+    /// Set by tests that want plain code on any processor.
+    pub(crate) static PLAIN: std::cell::Cell<bool> = const { std::cell::Cell::new(false) };
 }
 
 /// Four numbers of plain code.

@@ -13,9 +13,9 @@ use crate::stencil::StencilTable;
 
 /// What every parametric face is made of: bicubic leaves, chains around irregular corners, and splits into four.
 ///
-/// No points are inside: one table serves every pose of a cage. It costs 64 bytes per quad, and some 80 more per
-/// irregular corner; a semi-sharp crease costs as many small leaves as it takes to fade. The page is
-/// `docs/methods/exact_evaluation.md`.
+/// No points are inside: one table serves every pose of a cage. It costs 64 bytes per quad, and `8 n + 44` more per quad
+/// at an irregular corner of valence `n`, so memory around a pole grows with the square of its valence; a semi-sharp crease
+/// costs as many small leaves as it takes to fade. The page is `docs/methods/exact_evaluation.md`.
 ///
 /// ```
 /// use ogee::{FaceId, Level, LimitSurface, PatchTable, shapes};
