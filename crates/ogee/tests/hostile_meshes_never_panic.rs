@@ -1,11 +1,11 @@
 //! Any list of faces is either refused with every defect named, or can be refined and converted; nothing panics and
 //! no NaN comes out.
 
+mod cages;
+
+use cages::{scheme, tag};
 use ogee::convert::{ConvertError, Method, Options, Packing, to_part};
-use ogee::{
-    Boundary, ControlMesh, Corner, Crease, Creasing, FaceList, Level, Scheme, Sharpness, Vec3,
-    limit_vertices, shapes,
-};
+use ogee::{ControlMesh, FaceList, Level, Vec3, limit_vertices, shapes};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -13,12 +13,6 @@ fn points(count: usize) -> impl Strategy<Value = Vec<Vec3>> {
     vec((-4i32..5, -4i32..5, -4i32..5), count).prop_map(|points| {
         points.into_iter().map(|(x, y, z)| Vec3::new(f64::from(x), f64::from(y), f64::from(z))).collect()
     })
-}
-
-fn scheme() -> impl Strategy<Value = Scheme> {
-    let boundary = prop_oneof![Just(Boundary::EdgeAndCorner), Just(Boundary::EdgeOnly), Just(Boundary::None)];
-    let creasing = prop_oneof![Just(Creasing::Uniform), Just(Creasing::Chaikin)];
-    (boundary, creasing).prop_map(|(boundary, creasing)| Scheme { boundary, creasing })
 }
 
 /// Faces thrown together: mostly refused.
@@ -44,21 +38,7 @@ fn tagged_mesh() -> impl Strategy<Value = ControlMesh> {
     let tags = vec((any::<prop::sample::Index>(), sharpness), 0..6);
     (base, tags.clone(), tags, vec(any::<prop::sample::Index>(), 0..3), scheme(), points(64), 0..3u8)
         .prop_map(|(mut mesh, creases, corners, holes, scheme, moved, kind)| {
-            let edges: Vec<[u32; 2]> = mesh
-                .faces
-                .iter()
-                .flat_map(|face| {
-                    (0..face.len()).map(|k| [face[k], face[(k + 1) % face.len()]]).collect::<Vec<_>>()
-                })
-                .collect();
-            for (which, sharpness) in creases {
-                let vertices = edges[which.index(edges.len())];
-                mesh.creases.push(Crease { vertices, sharpness: Sharpness::from_value(sharpness) });
-            }
-            for (which, sharpness) in corners {
-                let vertex = which.index(mesh.points.len()) as u32;
-                mesh.corners.push(Corner { vertex, sharpness: Sharpness::from_value(sharpness) });
-            }
+            tag(&mut mesh, creases, corners);
             mesh.scheme = scheme;
             match kind {
                 0 => mesh.holes = holes.iter().map(|hole| hole.index(mesh.faces.len()) as u32).collect(),

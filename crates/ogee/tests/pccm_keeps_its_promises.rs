@@ -1,6 +1,9 @@
 //! The exact properties of PCCM patches (`docs/methods/pccm.md`, Practice), on cages of many valences, with
 //! coordinates shaken at random.
 
+mod cages;
+
+use cages::{shaken, voxels};
 use ogee::convert::{Method, Options, Packing, to_part};
 use ogee::nurbs::{KnotVector, NurbsSurface};
 use ogee::pccm::{self, CornerClass, Layer, Patches, to_patches};
@@ -23,60 +26,13 @@ fn trapezohedron(n: u32) -> ControlMesh {
     ControlMesh::new(points, upper.chain(lower).collect())
 }
 
-/// The boundary of the unit cells of `filled`, a closed surface with valences 3 to 6.
-fn voxels(filled: &[[i32; 3]]) -> ControlMesh {
-    let mut points: Vec<[i32; 3]> = Vec::new();
-    let mut faces = Vec::new();
-    for &cell in filled {
-        for axis in 0..3 {
-            for side in 0..2 {
-                let mut neighbour = cell;
-                neighbour[axis] += 2 * side - 1;
-                if filled.contains(&neighbour) {
-                    continue;
-                }
-                let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
-                let mut corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, j)| {
-                    let mut p = cell;
-                    p[axis] += side;
-                    p[a] += i;
-                    p[b] += j;
-                    points.iter().position(|&q| q == p).unwrap_or_else(|| {
-                        points.push(p);
-                        points.len() - 1
-                    }) as u32
-                });
-                if side == 0 {
-                    corners.reverse();
-                }
-                faces.push(corners);
-            }
-        }
-    }
-    let points = points.iter().map(|p| Vec3::new(f64::from(p[0]), f64::from(p[1]), f64::from(p[2])));
-    ControlMesh::new(points.collect(), faces.into_iter().collect())
-}
-
-/// Moves every point a little, the same every time.
-fn shaken(mut mesh: ControlMesh, by: f64) -> ControlMesh {
-    let mut state = 7u64;
-    let mut next = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        ((state >> 33) as f64 / f64::from(1u32 << 31) - 0.5) * by
-    };
-    for p in &mut mesh.points {
-        *p += Vec3::new(next(), next(), next());
-    }
-    mesh
-}
-
 fn crease(mut mesh: ControlMesh, edges: &[[u32; 2]]) -> ControlMesh {
     mesh.creases =
         edges.iter().map(|&vertices| Crease { vertices, sharpness: Sharpness::Infinite }).collect();
     mesh
 }
 
-fn cages() -> Vec<(String, ControlMesh)> {
+fn all_cages() -> Vec<(String, ControlMesh)> {
     let mut cages: Vec<(String, ControlMesh)> = Vec::new();
     for n in [3, 5, 6, 7, 8, 10, 12] {
         cages.push((format!("trapezohedron {n}"), shaken(trapezohedron(n), 0.15)));
@@ -132,7 +88,7 @@ fn seen(k: usize, a: f64, b: f64, m: f64) -> (f64, f64) {
 
 #[test]
 fn pccm_is_tangent_continuous() {
-    for (name, mesh) in cages() {
+    for (name, mesh) in all_cages() {
         for method in [Method::Pccm, Method::PccmFirst] {
             for level in [2, 3] {
                 let options =
@@ -148,7 +104,7 @@ fn pccm_is_tangent_continuous() {
 
 #[test]
 fn outside_the_zone_of_extraordinary_vertices_all_is_c2() {
-    for (name, mesh) in cages() {
+    for (name, mesh) in all_cages() {
         let level = Level::new(&mesh).unwrap();
         let topology = level.topology();
         for options in variants() {
@@ -189,7 +145,7 @@ fn outside_the_zone_of_extraordinary_vertices_all_is_c2() {
 
 #[test]
 fn outside_the_changed_cells_it_is_the_limit_surface() {
-    for (name, mesh) in cages() {
+    for (name, mesh) in all_cages() {
         let level = Level::new(&mesh).unwrap();
         for options in variants() {
             let patches = to_patches(&level, &mesh.points, &options).unwrap();
@@ -299,7 +255,7 @@ fn boundary_curves_are_the_cubic_splines_of_their_polygons() {
 
 #[test]
 fn patches_are_regular() {
-    for (name, mesh) in cages().into_iter().filter(|(name, _)| name != "box top") {
+    for (name, mesh) in all_cages().into_iter().filter(|(name, _)| name != "box top") {
         let level = Level::new(&mesh).unwrap();
         let patches = to_patches(&level, &mesh.points, &pccm::Options::default()).unwrap();
         for (quad, surface) in surfaces(&patches).iter().enumerate() {
@@ -319,7 +275,7 @@ fn patches_are_regular() {
 #[test]
 fn affine_maps_of_the_cage_map_the_patches() {
     let map = |p: Vec3| Vec3::new(2.0 * p.x - p.y + 3.0, 0.5 * p.y + p.z, p.z - 0.3 * p.x - 8.0);
-    for (name, mesh) in cages() {
+    for (name, mesh) in all_cages() {
         // Corners and boundaries place tangents by angles and lengths: they follow similarities only.
         if !Level::new(&mesh)
             .unwrap()

@@ -7,7 +7,7 @@ use super::bicubic::basis;
 use super::place::{Patch, Tile, power_of_two};
 use crate::math::par;
 use crate::patch::{ChainBasis, Location, PatchTable, TURNED, Tail};
-use crate::stencil::StencilTable;
+use crate::stencil::{StencilTable, join};
 
 /// Weights of position, `du`, `dv`, `duu`, `duv`, `dvv` on some points.
 type Parts<T> = [T; 6];
@@ -167,13 +167,6 @@ fn on_cage(table: &PatchTable, sources: &[u32], weights: &[f64]) -> Vec<(u32, f6
             row.extend(local.map(|(vertex, share)| (vertex, weight * share)));
         }
     }
-    row.sort_by_key(|&(vertex, _)| vertex);
-    row.dedup_by(|next, kept| {
-        let same = next.0 == kept.0;
-        if same {
-            kept.1 += next.1;
-        }
-        same
-    });
+    join(&mut row);
     row
 }

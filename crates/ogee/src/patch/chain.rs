@@ -26,7 +26,7 @@ use crate::math::simd::{self, Four};
 use crate::mesh::{Boundary, Creasing, EdgeId, FaceId, FaceList, HalfedgeId, Scheme, Topology, VertexId};
 use crate::rules::masks as rules;
 use crate::rules::{Level, SharpEdge, Sparse};
-use crate::stencil::Row;
+use crate::stencil::{Row, join};
 
 /// What repeats itself around an irregular corner, seen from one of its quads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -108,14 +108,7 @@ struct Sums {
 
 impl Sums {
     fn push(&mut self, mut terms: Vec<(u32, f64)>) {
-        terms.sort_by_key(|&(source, _)| source);
-        terms.dedup_by(|next, kept| {
-            let same = next.0 == kept.0;
-            if same {
-                kept.1 += next.1;
-            }
-            same
-        });
+        join(&mut terms);
         terms.retain(|&(_, weight)| weight != 0.0);
         terms.sort_by(|a, b| b.1.total_cmp(&a.1));
         for group in terms.chunk_by(|a, b| a.1 == b.1) {

@@ -4,4 +4,5 @@ mod row;
 mod table;
 
 pub use row::Row;
+pub(crate) use row::join;
 pub use table::StencilTable;

@@ -51,15 +51,7 @@ impl Row {
         debug_assert!(self.faces.is_empty(), "the mask of a face point names vertices only");
         faces.clear();
         self.faces = faces;
-        // Stable: equal sources are summed in the order in which the mask named them.
-        self.vertices.sort_by_key(|&(v, _)| v);
-        self.vertices.dedup_by(|next, kept| {
-            let same = next.0 == kept.0;
-            if same {
-                kept.1 += next.1;
-            }
-            same
-        });
+        join(&mut self.vertices);
     }
 
     /// Weights on vertices and on face points as the masks named them.
@@ -72,4 +64,17 @@ impl Row {
         debug_assert!(self.faces.is_empty(), "face points are to be expanded first");
         &self.vertices
     }
+}
+
+/// Sorts weights by source, and sums those on the same source.
+pub(crate) fn join(weights: &mut Vec<(u32, f64)>) {
+    // Stable: equal sources are summed in the order in which they were named.
+    weights.sort_by_key(|&(source, _)| source);
+    weights.dedup_by(|next, kept| {
+        let same = next.0 == kept.0;
+        if same {
+            kept.1 += next.1;
+        }
+        same
+    });
 }

@@ -377,6 +377,26 @@ fn sharpness() -> impl Strategy<Value = f64> {
     prop_oneof![Just(10.0), Just(1.0), Just(0.5), Just(2.5), Just(9.9), Just(1e-300)]
 }
 
+/// Tags for some edges and vertices, chosen by chance.
+pub type Tags = Vec<(prop::sample::Index, f64)>;
+
+/// Makes some edges and vertices of a mesh sharp.
+pub fn tag(mesh: &mut ControlMesh, creases: Tags, corners: Tags) {
+    let edges: Vec<[u32; 2]> = mesh
+        .faces
+        .iter()
+        .flat_map(|face| (0..face.len()).map(|k| [face[k], face[(k + 1) % face.len()]]).collect::<Vec<_>>())
+        .collect();
+    for (which, sharpness) in creases {
+        let vertices = edges[which.index(edges.len())];
+        mesh.creases.push(Crease { vertices, sharpness: Sharpness::from_value(sharpness) });
+    }
+    for (which, sharpness) in corners {
+        let vertex = which.index(mesh.points.len()) as u32;
+        mesh.corners.push(Corner { vertex, sharpness: Sharpness::from_value(sharpness) });
+    }
+}
+
 /// A wheel: `n` triangles around a vertex, or a fan if it is left open.
 pub fn wheel(n: u32, open: bool) -> ControlMesh {
     let mut list = FaceList::new();
@@ -416,21 +436,7 @@ pub fn tagged(points: impl Strategy<Value = Vec<Vec3>>) -> impl Strategy<Value =
                 }
                 _ => {}
             }
-            let edges: Vec<[u32; 2]> = mesh
-                .faces
-                .iter()
-                .flat_map(|face| {
-                    (0..face.len()).map(|k| [face[k], face[(k + 1) % face.len()]]).collect::<Vec<_>>()
-                })
-                .collect();
-            for (which, sharpness) in creases {
-                let vertices = edges[which.index(edges.len())];
-                mesh.creases.push(Crease { vertices, sharpness: Sharpness::from_value(sharpness) });
-            }
-            for (which, sharpness) in corners {
-                let vertex = which.index(mesh.points.len()) as u32;
-                mesh.corners.push(Corner { vertex, sharpness: Sharpness::from_value(sharpness) });
-            }
+            tag(&mut mesh, creases, corners);
             for (point, moved) in mesh.points.iter_mut().zip(moved) {
                 *point = moved;
             }
