@@ -6,7 +6,7 @@ mod cages;
 use cages::{at_corner, creased, disk, faces_at, fan, sharp_at, spokes, turned};
 use ogee::{
     Boundary, ControlMesh, FaceId, Flags, Level, LimitJet, LimitSurface, PatchTable, Vec3, VertexId,
-    limit_vertices,
+    limit_vertices, shapes,
 };
 
 /// Evaluates around vertex 0: all its faces, from its corner.
@@ -364,4 +364,35 @@ fn where_tangents_are_parallel_there_is_no_normal() {
             });
         }
     }
+}
+
+/// Two sharp edges in line span no plane, but the surface beside them has one.
+#[test]
+fn a_corner_on_a_straight_side_has_its_normal() {
+    let mut mesh = sharp_at(shapes::grid(2, 2), &[1], 10.0);
+    for p in &mut mesh.points {
+        p.z = 0.0;
+    }
+    let level = Level::new(&mesh).unwrap();
+    let table = PatchTable::new(&level);
+    let surface = LimitSurface::new(&table, &mesh.points);
+    for (face, corner) in faces_at(&level, VertexId(1)) {
+        let point = surface.eval(at_corner(&level, &table, face, corner, 0.0, 0.0));
+        assert!(point.flags.contains(Flags::AT_EXTRAORDINARY));
+        assert!(point.normal.distance(Vec3::new(0.0, 0.0, 1.0)) < 1e-12, "{face}: {point:?}");
+    }
+}
+
+/// The zeros that stand for derivatives at an extraordinary vertex are no flat surface.
+#[test]
+fn there_is_no_curvature_at_an_extraordinary_vertex() {
+    let mesh = shapes::cube();
+    let table = PatchTable::new(&Level::new(&mesh).unwrap());
+    let surface = LimitSurface::new(&table, &mesh.points);
+    let vertex = table.locate(FaceId(0), None, 0.0, 0.0).unwrap();
+    let at_vertex = surface.jet(vertex);
+    assert!(at_vertex.curvature().is_none() && at_vertex.normal_derivatives().is_none());
+    let beside = surface.jet(vertex.at(0.1, 0.2).unwrap());
+    assert_eq!(beside.curvature(), beside.jet.curvature());
+    assert!(beside.curvature().is_some() && beside.normal_derivatives().is_some());
 }
