@@ -72,6 +72,7 @@
 //! | [`nurbs`] | knots, curves, surfaces of any degree, shells |
 //! | [`stam`] | the limit surface a second time, by eigenvectors, at smooth interior vertices |
 //! | [`pccm`] | one smooth patch per quad, and packing them into few |
+//! | [`quality`] | measuring instruments: reflected rays, lines on the surface, continuity |
 //! | [`convert`] | the whole journey from a cage to a part, with its figures |
 //!
 //! Each room imports only from those above it in this table. What is exported at the top of the crate is what most
@@ -97,6 +98,7 @@ pub mod mesh;
 pub mod nurbs;
 mod patch;
 pub mod pccm;
+pub mod quality;
 mod refine;
 mod rules;
 pub mod stam;

@@ -31,6 +31,15 @@ impl Location {
         }
     }
 
+    /// The point of the same parametric face nearest to these parameters.
+    #[inline]
+    #[must_use]
+    pub fn clamped(self, u: f64, v: f64) -> Location {
+        // Written so that what is no number becomes 0.
+        let clamp = |x: f64| if x > 0.0 { x.min(1.0) } else { 0.0 };
+        Location { root: self.root, u: clamp(u), v: clamp(v) }
+    }
+
     /// Its parameters, in `[0, 1]`.
     pub fn parameters(self) -> [f64; 2] {
         [self.u, self.v]

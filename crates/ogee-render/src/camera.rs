@@ -1,0 +1,216 @@
+//! `Camera`: who looks, and where a point is in the picture.
+
+use ogee::Vec3;
+use ogee::quality::Viewer;
+
+/// How depth becomes smallness.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Projection {
+    /// Rays from the eye; the whole vertical angle of view in degrees.
+    Perspective {
+        /// Between 0 and 180.
+        angle: f64,
+    },
+    /// Parallel rays; what the height of the picture shows, in units of the model.
+    Parallel {
+        /// Above 0.
+        height: f64,
+    },
+}
+
+/// Who looks, and at what.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// The eye; parallel rays start beside it.
+    pub eye: Vec3,
+    /// What is in the middle of the picture.
+    pub at: Vec3,
+    /// What points up in the picture.
+    pub up: Vec3,
+    /// How depth becomes smallness.
+    pub projection: Projection,
+}
+
+/// Angle of view unless another is asked for, in degrees: little distortion, still some depth.
+pub(crate) const ANGLE: f64 = 30.0;
+
+impl Camera {
+    /// A three-quarter view from the front, the right and above, with `z` up, in which a box fits into a picture of
+    /// `size` pixels.
+    pub fn fit([lower, upper]: [Vec3; 2], size: [u32; 2]) -> Camera {
+        Camera::fit_from(Vec3::new(0.55, -0.7, 0.46), [lower, upper], ANGLE, size)
+    }
+
+    /// The view towards a box from a direction, so near that its corners just fit.
+    pub fn fit_from(direction: Vec3, [lower, upper]: [Vec3; 2], angle: f64, size: [u32; 2]) -> Camera {
+        /// Of the picture is left free on each side.
+        const MARGIN: f64 = 0.06;
+        let at = 0.5 * (lower + upper);
+        let direction = direction.normalized().unwrap_or(Vec3::new(0.0, -1.0, 0.0));
+        let up = if direction.x.hypot(direction.y) > 1e-6 {
+            Vec3::new(0.0, 0.0, 1.0)
+        } else {
+            Vec3::new(0.0, 1.0, 0.0)
+        };
+        let right = up.cross(direction).normalized().unwrap_or(Vec3::new(1.0, 0.0, 0.0));
+        let upward = direction.cross(right);
+        let tangent = (angle.to_radians() / 2.0).tan();
+        let aspect = f64::from(size[0]) / f64::from(size[1].max(1));
+        let (wide, high) = (tangent * aspect * (1.0 - 2.0 * MARGIN), tangent * (1.0 - 2.0 * MARGIN));
+        let mut distance: f64 = 0.0;
+        for corner in 0..8 {
+            let pick = |bit: u32, a: f64, b: f64| if corner >> bit & 1 == 0 { a } else { b };
+            let offset = Vec3::new(
+                pick(0, lower.x, upper.x) - at.x,
+                pick(1, lower.y, upper.y) - at.y,
+                pick(2, lower.z, upper.z) - at.z,
+            );
+            let needed = (offset.dot(right).abs() / wide).max(offset.dot(upward).abs() / high);
+            distance = distance.max(needed + offset.dot(direction));
+        }
+        if distance <= 0.0 {
+            distance = 1.0;
+        }
+        Camera { eye: at + distance * direction, at, up, projection: Projection::Perspective { angle } }
+    }
+
+    /// The camera as arithmetic wants it, for pictures of `size` pixels. `None` if eye and target coincide, up is along
+    /// the view, or a number is not finite or out of its range.
+    pub fn view(&self, size: [u32; 2]) -> Option<View> {
+        let forward = (self.at - self.eye).normalized()?;
+        let right = forward.cross(self.up.normalized()?);
+        if right.length() < 1e-9 {
+            return None;
+        }
+        let right = right.normalized()?;
+        let height = f64::from(size[1]);
+        let (scale, is_parallel) = match self.projection {
+            Projection::Perspective { angle } if angle > 0.0 && angle < 180.0 => {
+                (height / 2.0 / (angle.to_radians() / 2.0).tan(), false)
+            }
+            Projection::Parallel { height: shown } if shown > 0.0 => (height / shown, true),
+            _ => return None,
+        };
+        let view =
+            View { eye: self.eye, axes: [right, right.cross(forward), forward], scale, is_parallel, size };
+        let is_finite = view.axes.iter().all(|axis| axis.is_finite());
+        (is_finite && self.eye.is_finite() && scale.is_finite()).then_some(view)
+    }
+}
+
+/// A camera in pixels. The middle of the top left pixel is `(0.5, 0.5)`; `x` runs to the right, `y` down.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// The eye.
+    pub eye: Vec3,
+    /// Unit vectors to the right, up and forward.
+    pub axes: [Vec3; 3],
+    /// Pixels: at depth 1 for a length of 1, or for a length of 1 where rays are parallel.
+    pub scale: f64,
+    /// True where rays are parallel.
+    pub is_parallel: bool,
+    /// Width and height.
+    pub size: [u32; 2],
+}
+
+impl View {
+    /// A point in the frame of the camera: right, up, depth.
+    #[inline]
+    pub fn to_camera(&self, point: Vec3) -> Vec3 {
+        self.turned(point - self.eye)
+    }
+
+    /// A vector in the frame of the camera.
+    #[inline]
+    pub fn turned(&self, vector: Vec3) -> Vec3 {
+        Vec3::new(vector.dot(self.axes[0]), vector.dot(self.axes[1]), vector.dot(self.axes[2]))
+    }
+
+    /// The pixel coordinates of a point in the frame of the camera.
+    #[inline]
+    pub fn pixel(&self, q: Vec3) -> [f64; 2] {
+        let k = if self.is_parallel { self.scale } else { self.scale / q.z };
+        [0.5 * f64::from(self.size[0]) + k * q.x, 0.5 * f64::from(self.size[1]) - k * q.y]
+    }
+
+    /// How the pixel of a point moves when the point moves along a tangent; both in the frame of the camera.
+    #[inline]
+    pub fn pixel_motion(&self, q: Vec3, w: Vec3) -> [f64; 2] {
+        if self.is_parallel {
+            return [self.scale * w.x, -self.scale * w.y];
+        }
+        let k = self.scale / q.z;
+        [k * (w.x - q.x / q.z * w.z), -k * (w.y - q.y / q.z * w.z)]
+    }
+
+    /// Who looks, for reflections.
+    pub fn viewer(&self) -> Viewer {
+        if self.is_parallel { Viewer::Parallel(self.axes[2]) } else { Viewer::Eye(self.eye) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fitted_box_lies_inside_the_picture_and_touches_its_margin() {
+        let lower = Vec3::new(-1.0, 2.0, 0.5);
+        let upper = Vec3::new(3.0, 2.5, 4.0);
+        for size in [[700, 700], [300, 900], [900, 200]] {
+            let view = Camera::fit([lower, upper], size).view(size).unwrap();
+            let (mut least, mut greatest) = ([f64::MAX; 2], [f64::MIN; 2]);
+            for corner in 0..8 {
+                let pick = |bit: u32, a: f64, b: f64| if corner >> bit & 1 == 0 { a } else { b };
+                let point = Vec3::new(
+                    pick(0, lower.x, upper.x),
+                    pick(1, lower.y, upper.y),
+                    pick(2, lower.z, upper.z),
+                );
+                let pixel = view.pixel(view.to_camera(point));
+                for k in 0..2 {
+                    least[k] = least[k].min(pixel[k]);
+                    greatest[k] = greatest[k].max(pixel[k]);
+                }
+            }
+            let free = |k: usize| {
+                let size = f64::from(size[k]);
+                least[k].min(size - greatest[k]) / size
+            };
+            assert!(free(0) > 0.05 && free(1) > 0.05);
+            assert!(free(0).min(free(1)) < 0.061, "{} {}", free(0), free(1));
+        }
+    }
+
+    #[test]
+    fn pixels_move_as_derivatives_say() {
+        let camera = Camera {
+            eye: Vec3::new(3.0, -4.0, 2.0),
+            at: Vec3::ZERO,
+            up: Vec3::new(0.0, 0.0, 1.0),
+            projection: Projection::Perspective { angle: 40.0 },
+        };
+        let parallel = Camera { projection: Projection::Parallel { height: 3.0 }, ..camera };
+        let (point, tangent, h) = (Vec3::new(0.3, 0.2, -0.1), Vec3::new(0.2, -0.5, 0.7), 1e-6);
+        for camera in [camera, parallel] {
+            let view = camera.view([400, 300]).unwrap();
+            let at = |step: f64| view.pixel(view.to_camera(point + step * tangent));
+            let motion = view.pixel_motion(view.to_camera(point), view.turned(tangent));
+            for k in 0..2 {
+                assert!((motion[k] - (at(h)[k] - at(-h)[k]) / (2.0 * h)).abs() < 1e-5);
+            }
+        }
+    }
+
+    #[test]
+    fn views_that_show_nothing_are_none() {
+        let camera = Camera::fit([Vec3::ZERO, Vec3::new(1.0, 1.0, 1.0)], [10, 10]);
+        assert!(camera.view([10, 10]).is_some());
+        assert!(Camera { at: camera.eye, ..camera }.view([10, 10]).is_none());
+        assert!(Camera { up: camera.at - camera.eye, ..camera }.view([10, 10]).is_none());
+        for angle in [0.0, 180.0, f64::NAN] {
+            let projection = Projection::Perspective { angle };
+            assert!(Camera { projection, ..camera }.view([10, 10]).is_none());
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! NURBS patches, as instruments look at them.
+
+use std::collections::HashMap;
+
+use super::{Address, Joint, Layout, Side, Square, Surface};
+use crate::limit::{Derivatives, Flags, Samples};
+use crate::math::{Grid, SurfaceJet, Vec3, par};
+use crate::nurbs::{FaceAddress, NurbsSurface};
+use crate::patch::Location;
+
+/// Patches with the layout of their squares: a square for each piece of the cage that a patch covers.
+#[derive(Clone, Debug)]
+pub struct PatchView {
+    patches: Vec<(NurbsSurface, Grid<FaceAddress>)>,
+    layout: Layout,
+}
+
+/// Why patches cannot be looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PatchViewError {
+    /// There are none.
+    #[error("there are no patches")]
+    Empty,
+    /// A patch that covers nothing of the cage.
+    #[error("patch {patch} covers no face")]
+    NoFace {
+        /// The patch, numbered from 0.
+        patch: usize,
+    },
+}
+
+impl PatchView {
+    /// Lays patches side by side: sides whose ends and middles agree, to 1e-6 of the size of all, are joined. Each patch
+    /// comes with the pieces of the cage that it covers, `(i, j)`, `i` along `u`, all of the same size in its parameters.
+    ///
+    /// # Errors
+    /// If there is nothing to look at.
+    pub fn new(patches: Vec<(NurbsSurface, Grid<FaceAddress>)>) -> Result<PatchView, PatchViewError> {
+        if patches.is_empty() {
+            return Err(PatchViewError::Empty);
+        }
+        if let Some(patch) = patches.iter().position(|(_, cells)| cells.cells().is_empty()) {
+            return Err(PatchViewError::NoFace { patch });
+        }
+        let mut squares = Vec::new();
+        for (number, (_, cells)) in (0..).zip(&patches) {
+            let size = [1.0 / cells.rows() as f64, 1.0 / cells.cols() as f64];
+            for i in 0..cells.rows() {
+                for j in 0..cells.cols() {
+                    let (u, v) = (i as f64 * size[0], j as f64 * size[1]);
+                    squares.push(Square { corner: Location { root: number, u, v }, size });
+                }
+            }
+        }
+        let joints = joints(&patches, &squares);
+        Ok(PatchView { patches, layout: Layout::new(squares, joints) })
+    }
+
+    /// The patches, and the pieces of the cage that they cover.
+    pub fn patches(&self) -> &[(NurbsSurface, Grid<FaceAddress>)] {
+        &self.patches
+    }
+}
+
+impl Surface for PatchView {
+    fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    fn evaluate(&self, at: &[Location], what: Derivatives, out: &mut Samples) {
+        let jets = par::collect(at.len(), |i| jet(&self.patches[at[i].root as usize].0, at[i]));
+        let normals: Vec<Option<Vec3>> = jets.iter().map(SurfaceJet::normal).collect();
+        let is = |wanted: Derivatives| what >= wanted;
+        let list = |wanted: bool, part: fn(&SurfaceJet) -> Vec3| -> Vec<Vec3> {
+            if wanted { jets.iter().map(part).collect() } else { Vec::new() }
+        };
+        *out = Samples {
+            position: list(true, |jet| jet.position),
+            du: list(is(Derivatives::First), |jet| jet.du),
+            dv: list(is(Derivatives::First), |jet| jet.dv),
+            normal: if is(Derivatives::First) {
+                normals.iter().map(|normal| normal.unwrap_or_default()).collect()
+            } else {
+                Vec::new()
+            },
+            duu: list(is(Derivatives::Second), |jet| jet.duu),
+            duv: list(is(Derivatives::Second), |jet| jet.duv),
+            dvv: list(is(Derivatives::Second), |jet| jet.dvv),
+            flags: normals
+                .iter()
+                .map(|normal| if normal.is_some() { Flags::NONE } else { Flags::NORMAL_UNDEFINED })
+                .collect(),
+        };
+    }
+
+    fn address(&self, at: Location) -> Address {
+        let cells = &self.patches[at.root as usize].1;
+        let within = |x: f64, count: usize| {
+            let x = x * count as f64;
+            let cell = (x as usize).min(count - 1);
+            (cell, x - cell as f64)
+        };
+        let ((i, u), (j, v)) = (within(at.u, cells.rows()), within(at.v, cells.cols()));
+        let FaceAddress { face, corner } = cells[(i, j)];
+        Address { face, corner, u, v }
+    }
+}
+
+/// The jet of a patch with parameters from 0 to 1.
+fn jet(surface: &NurbsSurface, at: Location) -> SurfaceJet {
+    let ([u0, u1], [v0, v1]) = (surface.u.domain(), surface.v.domain());
+    let (a, b) = (u1 - u0, v1 - v0);
+    let jet = surface.jet(u0 + at.u * a, v0 + at.v * b);
+    SurfaceJet {
+        position: jet.position,
+        du: a * jet.du,
+        dv: b * jet.dv,
+        duu: (a * a) * jet.duu,
+        duv: (a * b) * jet.duv,
+        dvv: (b * b) * jet.dvv,
+    }
+}
+
+/// Sides are the same curve if their ends and middles agree to this share of the size of all.
+const SAME: f64 = 1e-6;
+
+fn joints(patches: &[(NurbsSurface, Grid<FaceAddress>)], squares: &[Square]) -> Vec<Joint> {
+    let point = |at: Location| jet(&patches[at.root as usize].0, at).position;
+    let sides: Vec<(Side, [Vec3; 3])> = (0..)
+        .zip(squares)
+        .flat_map(|(number, square)| {
+            (0..4).map(move |side| {
+                (Side { square: number, side }, [0.0, 0.5, 1.0].map(|x| point(square.on_side(side, x))))
+            })
+        })
+        .collect();
+    let (lower, upper) = sides.iter().fold((sides[0].1[1], sides[0].1[1]), |(lower, upper), (_, points)| {
+        (lower.min(points[1]), upper.max(points[1]))
+    });
+    let tolerance = (SAME * upper.distance(lower)).max(f64::MIN_POSITIVE);
+    // Middles fall into cells; a partner is in the same cell or in one beside it.
+    let cell = |p: Vec3| [p.x, p.y, p.z].map(|x| (x / tolerance / 4.0).round() as i64);
+    let mut cells: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
+    for (number, (_, points)) in (0..).zip(&sides) {
+        cells.entry(cell(points[1])).or_default().push(number);
+    }
+    let mut joined = vec![false; sides.len()];
+    let mut joints = Vec::new();
+    for (number, (side, [start, middle, end])) in sides.iter().enumerate() {
+        if joined[number] || start.distance(*end) + start.distance(*middle) <= tolerance {
+            continue;
+        }
+        let [x, y, z] = cell(*middle);
+        let around = (-1..=1).flat_map(|i| (-1..=1).flat_map(move |j| (-1..=1).map(move |k| [i, j, k])));
+        let candidates = around.filter_map(|[i, j, k]| cells.get(&[x + i, y + j, z + k])).flatten();
+        let partner = candidates.copied().map(|other| other as usize).filter(|&other| {
+            let [a, b, c] = sides[other].1;
+            let gap = start.distance(c).max(middle.distance(b)).max(end.distance(a));
+            other > number && !joined[other] && gap <= tolerance
+        });
+        if let Some(partner) = partner.min() {
+            joined[number] = true;
+            joined[partner] = true;
+            joints.push(Joint { sides: [*side, sides[partner].0], is_sharp: false });
+        }
+    }
+    joints
+}
