@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use clap::error::ErrorKind;
 use clap::{Args, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::commands::{check, completions, convert, eval, info, refine};
+use crate::commands::{check, completions, convert, eval, info, lines, refine};
 use crate::error::{Exit, Failure};
 use crate::{names, output, report};
 
@@ -54,6 +54,7 @@ pub(crate) enum Command {
     Info(info::Info),
     Refine(refine::Refine),
     Eval(eval::Eval),
+    Lines(lines::Lines),
     Convert(convert::Convert),
     Check(check::Check),
     Completions(completions::Completions),
