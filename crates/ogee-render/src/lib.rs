@@ -9,10 +9,14 @@
 //! | --- | --- |
 //! | `camera` | [`Camera`], [`View`]: where a point is in the picture |
 //! | `style` | [`Scene`], [`Style`], [`Pattern`]: what is shown |
+//! | [`pattern`], [`colour`], [`shade`] | how bright, which colour: functions with twins in shaders |
 //! | `image` | [`Image`]: pixels, PNG |
 
 mod camera;
+pub mod colour;
 mod image;
+pub mod pattern;
+pub mod shade;
 mod style;
 
 pub use camera::{Camera, Projection, View};

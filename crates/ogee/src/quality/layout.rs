@@ -12,6 +12,8 @@ pub struct Square {
     pub corner: Location,
     /// The lengths of its sides in the parameters of the face.
     pub size: [f64; 2],
+    /// Which of its sides lie on an edge of the cage, or on the border of a patch.
+    pub edges: [bool; 4],
 }
 
 impl Square {
