@@ -1,7 +1,7 @@
 //! The colour of a point.
 
-use ogee::quality::{PlaneLight, Ray};
-use ogee::{Flags, SurfaceJet, Vec3};
+use ogee::quality::{Field, NormalJet, PlaneLight, Ray};
+use ogee::{Curvature, Vec3};
 
 use crate::colour::{Colour, DIVERGING, RISING, along, mix, scaled};
 use crate::pattern::{disc, lattice, line, stripe};
@@ -34,12 +34,23 @@ pub mod palette {
 /// A point of the surface in a pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Point {
-    /// The surface there.
-    pub jet: SurfaceJet,
+    /// Position.
+    pub position: Vec3,
+    /// Derivatives along the parameters.
+    pub tangents: [Vec3; 2],
     /// Unit normal; zero where there is none.
     pub normal: Vec3,
-    /// What is special there.
-    pub flags: Flags,
+    /// Derivatives of the normal; `None` where there are none, or they are not wanted.
+    pub turns: Option<[Vec3; 2]>,
+    /// Curvatures, where they are wanted and exist.
+    pub curvature: Option<Curvature>,
+}
+
+/// What rays depend on; `None` where normals do not turn smoothly.
+#[inline]
+pub fn normal_jet(at: &Point) -> Option<NormalJet> {
+    let Point { position, tangents, normal, .. } = *at;
+    Some(NormalJet { position, tangents, normal, turns: at.turns? })
 }
 
 /// A pixel in the parameters of the surface: columns say how far `u` and `v` move along its two sides.
@@ -53,10 +64,10 @@ pub struct Footprint {
 
 impl Footprint {
     /// The pixel that shows a point; infinite where the surface is seen edge-on.
-    pub fn new(view: &View, jet: &SurfaceJet) -> Footprint {
-        let q = view.to_camera(jet.position);
-        let [a, c] = view.pixel_motion(q, view.turned(jet.du));
-        let [b, d] = view.pixel_motion(q, view.turned(jet.dv));
+    pub fn new(view: &View, at: &Point) -> Footprint {
+        let q = view.to_camera(at.position);
+        let [a, c] = view.pixel_motion(q, view.turned(at.tangents[0]));
+        let [b, d] = view.pixel_motion(q, view.turned(at.tangents[1]));
         let determinant = a * d - b * c;
         Footprint { x: [d / determinant, -c / determinant], y: [-b / determinant, a / determinant] }
     }
@@ -120,8 +131,9 @@ pub fn lit(
     at: &Point,
     pixel: &Footprint,
 ) -> Colour {
-    let position = at.jet.position;
-    let Some(hit) = light.hit_jet(ray, &view.viewer(), &at.jet) else {
+    let position = at.position;
+    let hit = normal_jet(at).and_then(|jet| light.hit_jet(ray, &view.viewer(), &jet));
+    let Some(hit) = hit else {
         return paint(view, position, at.normal, palette::LIGHT, 0.0);
     };
     let [x, y] = hit.hit.at;
@@ -148,7 +160,7 @@ pub fn lit(
 /// Bands of equal angle, in degrees, between the normal and the light.
 pub fn isophote(view: &View, light: Vec3, step: f64, at: &Point, pixel: &Footprint) -> Colour {
     let angle = at.normal.cross(light).length().atan2(at.normal.dot(light));
-    let spread = match at.jet.normal_derivatives() {
+    let spread = match at.turns {
         // The angle changes as the normal turns towards the light.
         Some(turns) => {
             let sine = angle.sin().max(1e-9);
@@ -158,13 +170,13 @@ pub fn isophote(view: &View, light: Vec3, step: f64, at: &Point, pixel: &Footpri
         None => 0.0,
     };
     let bright = stripe(angle.to_degrees() / step, spread.to_degrees() / step, 0.5);
-    bands(view, at.jet.position, at.normal, bright as f32)
+    bands(view, at.position, at.normal, bright as f32)
 }
 
 /// Stripes of an environment far away.
 pub fn zebra(view: &View, axis: Vec3, count: f64, at: &Point, pixel: &Footprint) -> Colour {
-    let field = ogee::quality::Field::Zebra { viewer: view.viewer(), axis };
-    let bright = match field.jet(&at.jet) {
+    let field = Field::Zebra { viewer: view.viewer(), axis };
+    let bright = match normal_jet(at).and_then(|jet| field.jet(&jet)) {
         Some(jet) => {
             let slope = 1.0 / (1.0 - jet.value * jet.value).max(1e-9).sqrt();
             let per_angle = count / std::f64::consts::PI;
@@ -173,15 +185,12 @@ pub fn zebra(view: &View, axis: Vec3, count: f64, at: &Point, pixel: &Footprint)
         }
         None => 0.5,
     };
-    bands(view, at.jet.position, at.normal, bright as f32)
+    bands(view, at.position, at.normal, bright as f32)
 }
 
 /// The curvature that a map shows; `None` where the surface has none.
 pub fn curvature(quantity: Quantity, at: &Point) -> Option<f64> {
-    if at.flags.contains(Flags::AT_EXTRAORDINARY) || at.flags.contains(Flags::NORMAL_UNDEFINED) {
-        return None;
-    }
-    let curvature = at.jet.curvature()?;
+    let curvature = at.curvature?;
     Some(match quantity {
         Quantity::Gauss | Quantity::GaussSign => curvature.gauss,
         Quantity::Mean => curvature.mean,
@@ -208,19 +217,25 @@ pub fn on_body(view: &View, point: Vec3, normal: Vec3, colour: Colour) -> Colour
     scaled(colour, 0.55 + 0.45 * matt(view, point, normal))
 }
 
-/// The edges of a face on the body: `sides` says which sides of the parameters' square are edges, from `v = 0`
-/// counter-clockwise.
-pub fn wire(view: &View, uv: [f64; 2], sides: [bool; 4], at: &Point, pixel: &Footprint) -> Colour {
+/// The edges of a square of parameters on the body: `at` is in the square, from 0 to `size`, and `sides` says which of its
+/// sides are edges, counter-clockwise from the one along the first parameter.
+pub fn wire(
+    view: &View,
+    [s, t]: [f64; 2],
+    size: [f64; 2],
+    sides: [bool; 4],
+    at: &Point,
+    pixel: &Footprint,
+) -> Colour {
     const WIDTH: f64 = 1.3;
-    let [u, v] = uv;
     let distances = [
-        pixel.distance(v, 0.0, 1.0),
-        pixel.distance(1.0 - u, 1.0, 0.0),
-        pixel.distance(1.0 - v, 0.0, 1.0),
-        pixel.distance(u, 1.0, 0.0),
+        pixel.distance(t, 0.0, 1.0),
+        pixel.distance(size[0] - s, 1.0, 0.0),
+        pixel.distance(size[1] - t, 0.0, 1.0),
+        pixel.distance(s, 1.0, 0.0),
     ];
     let nearest = (0..4).filter(|&k| sides[k]).fold(f64::INFINITY, |least, k| least.min(distances[k]));
-    mix(body(view, at.jet.position, at.normal), palette::EDGE, line(nearest, WIDTH) as f32)
+    mix(body(view, at.position, at.normal), palette::EDGE, line(nearest, WIDTH) as f32)
 }
 
 /// The colour of a displacement of lines, in pixels, up to `limit`.

@@ -111,6 +111,13 @@ impl Layout {
         Some(if first == side { second } else { first })
     }
 
+    /// The point at `x` on a side as the square across sees it; `None` on the border of the surface.
+    #[inline]
+    pub fn cross(&self, side: Side, x: f64) -> Option<(u32, [f64; 2])> {
+        let Side { square, side } = self.across(side)?;
+        Some((square, side_point(side, 1.0 - x)))
+    }
+
     /// The sides without a neighbour, in order.
     pub fn border(&self) -> impl Iterator<Item = Side> + '_ {
         let sides =
