@@ -162,8 +162,8 @@ pub fn render(surface: &dyn Surface, scene: &Scene) -> Result<Picture, RenderErr
             picture.colours[fragment.pixel as usize] = painter.colour(look, picture.limit);
         }
     }
-    if let Style::Combs { scale } = scene.style {
-        comb::draw(surface, &view, scale, &shown, &mut picture.colours);
+    if let Style::Combs { share } = scene.style {
+        comb::draw(surface, &view, share, &shown, &mut picture.colours);
     }
     seconds.colour = start.elapsed().as_secs_f64();
     picture.seconds = seconds;

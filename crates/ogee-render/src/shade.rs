@@ -227,7 +227,6 @@ pub fn wire(
     at: &Point,
     pixel: &Footprint,
 ) -> Colour {
-    const WIDTH: f64 = 1.3;
     let distances = [
         pixel.distance(t, 0.0, 1.0),
         pixel.distance(size[0] - s, 1.0, 0.0),
@@ -235,7 +234,7 @@ pub fn wire(
         pixel.distance(s, 1.0, 0.0),
     ];
     let nearest = (0..4).filter(|&k| sides[k]).fold(f64::INFINITY, |least, k| least.min(distances[k]));
-    mix(body(view, at.position, at.normal), palette::EDGE, line(nearest, WIDTH) as f32)
+    mix(body(view, at.position, at.normal), palette::EDGE, line(nearest, 1.3 * view.line_width()) as f32)
 }
 
 /// The colour of a displacement of lines, in pixels, up to `limit`.

@@ -14,7 +14,7 @@ pub(crate) struct Spot {
 }
 
 /// Steps for all pixels: what is left is 1e-8 of a pixel nearly everywhere.
-pub(crate) const STEPS: usize = 2;
+const STEPS: usize = 2;
 
 /// Steps more for pixels that belong to the face beyond a side, and those at outlines.
 const STEPS_MORE: usize = 6;
@@ -31,10 +31,7 @@ pub(crate) fn solve(surface: &dyn Surface, view: &View, spots: &mut [Spot]) {
     let mut samples = Samples::default();
     let mut at: Vec<Location> = Vec::with_capacity(spots.len());
     for _ in 0..STEPS {
-        evaluate(surface, spots.iter(), &mut at, &mut samples);
-        for (i, spot) in spots.iter_mut().enumerate() {
-            step(layout, view, spot, &samples, i);
-        }
+        steps(surface, view, spots, &mut at, &mut samples);
     }
     // Steps that stopped at a side, or that have not come near.
     evaluate(surface, spots.iter(), &mut at, &mut samples);
@@ -54,6 +51,34 @@ pub(crate) fn solve(surface: &dyn Surface, view: &View, spots: &mut [Spot]) {
         }
         left = next;
     }
+}
+
+/// One step for all.
+fn steps(
+    surface: &dyn Surface,
+    view: &View,
+    spots: &mut [Spot],
+    at: &mut Vec<Location>,
+    samples: &mut Samples,
+) {
+    evaluate(surface, spots.iter(), at, samples);
+    for (i, spot) in spots.iter_mut().enumerate() {
+        step(surface.layout(), view, spot, samples, i);
+    }
+}
+
+/// How many pixels away the points are before and after each of so many steps.
+pub(crate) fn residuals(surface: &dyn Surface, view: &View, spots: &[Spot], count: usize) -> Vec<Vec<f64>> {
+    let (mut spots, mut at, mut samples) = (spots.to_vec(), Vec::new(), Samples::default());
+    let mut all = Vec::new();
+    for _ in 0..=count {
+        evaluate(surface, spots.iter(), &mut at, &mut samples);
+        all.push((0..spots.len()).map(|i| residual(view, &spots[i], &samples, i)).collect());
+        for (i, spot) in spots.iter_mut().enumerate() {
+            step(surface.layout(), view, spot, &samples, i);
+        }
+    }
+    all
 }
 
 fn evaluate<'a>(
