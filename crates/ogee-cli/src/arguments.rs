@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use clap::error::ErrorKind;
 use clap::{Args, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::commands::{check, completions, convert, eval, info, lines, refine};
+use crate::commands::{check, completions, convert, eval, info, lines, refine, render};
 use crate::error::{Exit, Failure};
 use crate::{names, output, report};
 
@@ -54,8 +54,9 @@ pub(crate) enum Command {
     Info(info::Info),
     Refine(refine::Refine),
     Eval(eval::Eval),
-    Lines(lines::Lines),
     Convert(convert::Convert),
+    Render(Box<render::Render>),
+    Lines(Box<lines::Lines>),
     Check(check::Check),
     Completions(completions::Completions),
     /// Print the manual of all commands in roff on stdout

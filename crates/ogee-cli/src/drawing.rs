@@ -1,6 +1,6 @@
 //! Curves on a surface as curves in a picture.
 
-use ogee::quality::{LevelLine, Side, Surface, Viewer};
+use ogee::quality::{LevelLine, LineOptions, Side, Surface, Viewer};
 use ogee::{Derivatives, Samples, Vec3};
 use ogee_formats::lines::Path;
 use ogee_render::View;
@@ -19,8 +19,8 @@ pub(crate) fn projected(lines: &[LevelLine], view: &View) -> Vec<Path> {
         .collect()
 }
 
-/// The borders and sharp edges of a surface in pixels, where it faces the viewer if one is given.
-pub(crate) fn edges(surface: &dyn Surface, view: &View, front: Option<Viewer>) -> Vec<Path> {
+/// The borders and sharp edges of a surface in pixels, as far as lines there would be wanted.
+pub(crate) fn edges(surface: &dyn Surface, view: &View, options: &LineOptions<'_>) -> Vec<Path> {
     const STEPS: usize = 32;
     let layout = surface.layout();
     let sharp = layout.joints().iter().filter(|joint| joint.is_sharp).flat_map(|joint| joint.sides);
@@ -36,7 +36,8 @@ pub(crate) fn edges(surface: &dyn Surface, view: &View, front: Option<Viewer>) -
     surface.evaluate(&at, Derivatives::First, &mut samples);
     let is_seen = |k: usize| {
         let position = samples.position[k];
-        front.is_none_or(|viewer| samples.normal[k].dot(viewer.direction(position).0) < 0.0)
+        let faces = |viewer: Viewer| samples.normal[k].dot(viewer.direction(position).0) < 0.0;
+        options.front.is_none_or(faces) && options.visible.is_none_or(|visible| visible(position))
     };
     (0..sides.len())
         .flat_map(|side| {

@@ -28,6 +28,7 @@ mod names;
 mod output;
 mod progress;
 mod report;
+mod subject;
 mod system;
 mod timestamp;
 mod view;

@@ -7,8 +7,6 @@ use ogee::convert::{Method, UpAxis};
 use ogee::{Boundary, Creasing, Derivatives};
 use ogee_formats::step::{Schema, Unit};
 
-use crate::commands::lines::LineStyle;
-
 /// A parser of values that go by one or more names.
 #[derive(Clone)]
 pub(crate) struct Names<T: Clone + Send + Sync + 'static> {
@@ -80,15 +78,6 @@ pub(crate) const DERIVATIVES: Names<Derivatives> = Names {
     elsewhere: &[],
 };
 
-pub(crate) const LINE_STYLES: Names<LineStyle> = Names {
-    values: &[
-        ("reflection", LineStyle::Reflection),
-        ("highlight", LineStyle::Highlight),
-        ("isophote", LineStyle::Isophote),
-    ],
-    elsewhere: &[],
-};
-
 /// A format, told by a name that is also the extension of its files.
 pub(crate) trait Format: Copy + 'static {
     /// All names; the first of a format is the usual one.
@@ -127,8 +116,7 @@ pub(crate) fn formats<F: Format + Send + Sync>() -> Names<F> {
 }
 
 /// Commands and options that the program has but not this build.
-const ELSEWHERE: [&str; 9] =
-    ["network", "lens", "render", "inspect", "batch", "view", "--lens", "--iges", "--visible"];
+const ELSEWHERE: [&str; 7] = ["network", "lens", "inspect", "batch", "view", "--lens", "--iges"];
 
 /// What to say where an unknown word is one of another build.
 pub(crate) fn not_in_this_build(error: &Error) -> Option<String> {

@@ -1,28 +1,32 @@
 //! `ogee lines`: reflection lines, highlight lines and isophotes as curves on the limit surface.
 
+use std::io::{self, Write};
 use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::Args;
+use ogee::Vec3;
 use ogee::quality::{
-    Fairness, Field, LevelLine, LevelLines, Levels, LimitView, LineOptions, Ray, Surface, bounds, level_lines,
+    Fairness, Field, LevelLine, LevelLines, Levels, LineOptions, Ray, Surface, Viewer, level_lines,
 };
-use ogee::{Level, LimitSurface, PatchTable, Vec3};
 use ogee_formats::lines::{Drawing, LineFormat, write_json, write_obj, write_svg};
+use ogee_render::{DepthImage, View, outline};
 use serde::Serialize;
 
 use crate::arguments::OutputArguments;
-use crate::cage::{Cage, CageArguments};
+use crate::cage::CageArguments;
 use crate::drawing::{edges, projected};
 use crate::error::{Failure, Finding};
-use crate::names::{Format, LINE_STYLES, formats};
+use crate::names::{Format, formats};
+use crate::output::Destination;
 use crate::report::{Console, Table, bytes, figure};
+use crate::subject::Subject;
 use crate::system;
 use crate::view::{LightArguments, ViewArguments};
 
 const EXAMPLES: &str = "\
 Examples:
-  ogee lines cage.obj --style reflection --front -o lines.svg     what the eye sees mirrored
+  ogee lines cage.obj --style reflection -o lines.svg             a drawing of what is in sight
   ogee lines cage.obj --style highlight --lines 40 -o lines.obj   curves in space, whoever looks
   ogee lines cage.obj --style isophote --step 5 -o lines.json     with faces and parameters";
 
@@ -35,7 +39,7 @@ pub(crate) struct Lines {
     #[command(flatten)]
     output: OutputArguments,
     /// Which lines
-    #[arg(long, value_name = "STYLE", default_value = "reflection", value_parser = LINE_STYLES)]
+    #[arg(long, value_name = "STYLE", default_value = "reflection", value_parser = formats::<LineStyle>())]
     style: LineStyle,
     /// How far chords may be from the curve, in units of the cage [default: 1e-4 of the diagonal]
     #[arg(long, value_name = "LENGTH")]
@@ -43,6 +47,12 @@ pub(crate) struct Lines {
     /// Only where the surface faces the eye
     #[arg(long)]
     front: bool,
+    /// Only what is in sight, as a drawing (SVG) has it anyway
+    #[arg(long)]
+    visible: bool,
+    /// In a drawing as well what is out of sight
+    #[arg(long, conflicts_with = "visible")]
+    hidden: bool,
     /// The format of the output, where its name does not tell
     #[arg(long, value_name = "FORMAT", value_parser = formats::<LineFormat>())]
     output_format: Option<LineFormat>,
@@ -60,6 +70,16 @@ pub(crate) enum LineStyle {
     Isophote,
 }
 
+impl Format for LineStyle {
+    const NAMES: &'static [(&'static str, LineStyle)] = &[
+        ("reflection", LineStyle::Reflection),
+        ("highlight", LineStyle::Highlight),
+        ("isophote", LineStyle::Isophote),
+    ];
+    const ELSEWHERE: &'static [&'static str] = &[];
+    const OPTION: &'static str = "--style";
+}
+
 impl Format for LineFormat {
     const NAMES: &'static [(&'static str, LineFormat)] =
         &[("svg", LineFormat::Svg), ("obj", LineFormat::Obj), ("json", LineFormat::Json)];
@@ -67,9 +87,12 @@ impl Format for LineFormat {
     const OPTION: &'static str = "--output-format";
 }
 
-/// Diagonals from the middle of a light plane to where its lines end, if nothing else was said: farther out they crowd
-/// together where rays run along the plane.
-const REACH: f64 = 4.0;
+/// Diagonals from the middle of a light plane to where its lines end, if nothing else was said: from farther out they
+/// crowd together where rays run along the plane.
+const REACH: f64 = 1.0;
+
+/// Of the diagonal: how long chords may be where they are looked at for what is in sight.
+const LONGEST: f64 = 5e-3;
 
 /// Of the diagonal.
 const TOLERANCE: f64 = 1e-4;
@@ -110,110 +133,132 @@ struct Seconds {
     write: f64,
 }
 
+/// Lines as they are written, with what a report wants to know.
+struct Found {
+    lines: LevelLines,
+    fairness: Vec<Fairness>,
+    tolerance: f64,
+    file_bytes: u64,
+    seconds: Seconds,
+}
+
 impl Lines {
     pub(crate) fn run(&self, console: &Console) -> Result<ExitCode, Failure> {
         let destination = self.output.destination(console.json)?;
         let format = LineFormat::of(self.output_format, &self.output.output).map_err(Failure::usage)?;
         let progress = console.progress();
         progress.step("reading");
-        let cage = self.cage.read()?;
+        let subject = Subject::read(&self.cage)?;
         destination.check()?;
-
-        progress.step("preparing");
-        let start = Instant::now();
-        let level = Level::new(cage.mesh()).map_err(|error| cage.refused(&error.defects))?;
-        let patches = PatchTable::new(&level);
-        let surface = LimitSurface::new(&patches, &cage.mesh().points);
-        let view = LimitView::new(&level, &surface);
-        let extent = bounds(&view).ok_or_else(|| {
-            cage.failure(
-                "no_surface",
-                "no face of the cage is part of the surface, or its points are too far out",
-            )
-        })?;
-        let diagonal = extent[1].distance(extent[0]);
-        if diagonal <= 0.0 {
-            return Err(cage.failure("no_extent", "the surface is a single point"));
-        }
-        let camera = self.view.camera(extent)?;
-        let screen = camera.view(self.view.size).ok_or_else(|| Failure::usage("nothing is in view"))?;
-        let viewer = screen.viewer();
-        let (field, levels) = self.field(viewer, extent, diagonal);
-        let prepare = start.elapsed().as_secs_f64();
-
         progress.step("tracing");
-        let start = Instant::now();
-        let tolerance = self.tolerance.unwrap_or(TOLERANCE * diagonal);
-        let mut options = LineOptions::new(tolerance);
-        options.front = self.front.then_some(viewer);
-        let all = levels.iter().map(|levels| {
-            level_lines(&view, &field, levels, &options)
-                .map_err(|error| cage.failure(error.code(), error.to_string()))
-        });
-        let traced = merged(all.collect::<Result<Vec<_>, _>>()?);
-        if traced.lines.is_empty() {
-            return Err(self.nothing(&cage, &traced));
-        }
-        let fairness: Vec<Fairness> =
-            traced.lines.iter().map(|line| Fairness::of(line, &view, &field)).collect();
-        let trace = start.elapsed().as_secs_f64();
-
-        progress.step("writing");
-        let start = Instant::now();
-        let file_bytes = destination.write(|out| match format {
-            LineFormat::Obj => write_obj(&traced.lines, out),
-            LineFormat::Json => {
-                let lines = traced.lines.iter().zip(fairness.iter().copied());
-                write_json(lines, |at| view.address(at), out)
-            }
-            LineFormat::Svg => {
-                let title = format!("{} lines of {}", self.name(), self.cage.stem());
-                let lines = projected(&traced.lines, &screen);
-                let edges = edges(&view, &screen, options.front);
-                write_svg(&Drawing { size: self.view.size, title: &title, edges: &edges, lines: &lines }, out)
-            }
-        })?;
-        let write = start.elapsed().as_secs_f64();
+        let found = subject.look(|surface| self.found(&subject, surface, format, &destination))?;
         drop(progress);
 
-        let mut notes = cage.warnings();
-        notes.extend(ogee::mesh::notes(cage.mesh()).iter().map(Finding::of_note));
-        let mut values: Vec<f64> = traced.lines.iter().map(|line| line.value).collect();
+        let notes = subject.notes();
+        let Found { lines: LevelLines { lines, crossings, max_residual, straight, .. }, fairness, .. } =
+            &found;
+        let mut values: Vec<f64> = lines.iter().map(|line| line.value).collect();
         values.dedup();
         let report = Report {
-            style: self.name(),
-            lines: traced.lines.len(),
+            style: LineStyle::NAMES
+                .iter()
+                .find(|(_, style)| *style == self.style)
+                .map_or("", |(name, _)| name),
+            lines: lines.len(),
             values: values.len(),
-            points: traced.lines.iter().map(|line| line.points.len()).sum(),
-            closed: traced.lines.iter().filter(|line| line.closed).count(),
-            crossings: traced.crossings,
-            tolerance,
-            max_residual: traced.max_residual,
-            straight: traced.straight,
+            points: lines.iter().map(|line| line.points.len()).sum(),
+            closed: lines.iter().filter(|line| line.closed).count(),
+            crossings: *crossings,
+            tolerance: found.tolerance,
+            max_residual: *max_residual,
+            straight: *straight,
             length: fairness.iter().map(|one| one.length).sum(),
             turning_deg: fairness.iter().map(|one| one.turning).sum::<f64>().to_degrees(),
             inflections: fairness.iter().map(|one| one.inflections).sum(),
             max_curvature_change: fairness.iter().map(|one| one.curvature_change).fold(0.0, f64::max),
-            seconds: Seconds { read: cage.seconds, prepare, trace, write },
+            seconds: found.seconds,
             peak_bytes: system::peak_memory(),
-            file_bytes,
+            file_bytes: found.file_bytes,
             notes: &notes,
         };
-        console.table(&format!("{} -> {}", cage.name, destination.name()), &table(&report), &notes);
+        console.table(&format!("{} -> {}", subject.name, destination.name()), &table(&report), &notes);
         console.json(&report)?;
         Ok(ExitCode::SUCCESS)
     }
 
-    fn name(&self) -> &'static str {
-        match self.style {
-            LineStyle::Reflection => "reflection",
-            LineStyle::Highlight => "highlight",
-            LineStyle::Isophote => "isophote",
+    /// Traces lines and writes them.
+    fn found(
+        &self,
+        subject: &Subject,
+        surface: &dyn Surface,
+        format: LineFormat,
+        destination: &Destination,
+    ) -> Result<Found, Failure> {
+        let start = Instant::now();
+        let bounds = subject.bounds(surface)?;
+        let diagonal = bounds[1].distance(bounds[0]);
+        let camera = self.view.camera(&outline(surface))?;
+        let view = |scale: u32| camera.view(self.view.size.map(|side| scale * side));
+        let (Some(screen), Some(fine)) = (view(1), view(2)) else {
+            return Err(Failure::usage("the camera shows nothing"));
+        };
+        let in_sight = self.visible || (format == LineFormat::Svg && !self.hidden);
+        let depths = in_sight.then(|| DepthImage::new(surface, &fine));
+        let shows = |point: Vec3| depths.as_ref().is_none_or(|depths| depths.shows(point));
+        let tolerance = self.tolerance.unwrap_or(TOLERANCE * diagonal);
+        let mut options = LineOptions::new(tolerance);
+        options.front = self.front.then(|| screen.viewer());
+        if in_sight {
+            options.visible = Some(&shows);
+            options.longest = LONGEST * diagonal;
         }
+        let prepare = subject.prepare_seconds + start.elapsed().as_secs_f64();
+
+        let start = Instant::now();
+        let (field, levels) = self.field(screen.viewer(), bounds);
+        let all = levels.iter().map(|levels| level_lines(surface, &field, levels, &options));
+        let all = all.collect::<Result<Vec<_>, _>>();
+        let lines = merged(all.map_err(|error| subject.failure(error.code(), error.to_string()))?);
+        if lines.lines.is_empty() {
+            return Err(subject.failure("no_lines", why_none(&lines)));
+        }
+        let fairness = Fairness::of_all(&lines.lines, surface, &field);
+        let trace = start.elapsed().as_secs_f64();
+
+        let start = Instant::now();
+        let file_bytes = destination.write(|out| match format {
+            LineFormat::Obj => write_obj(&lines.lines, out),
+            LineFormat::Json => {
+                let lines = lines.lines.iter().zip(fairness.iter().copied());
+                write_json(lines, |at| surface.address(at), out)
+            }
+            LineFormat::Svg => self.draw(surface, &screen, &options, &lines.lines, out),
+        })?;
+        let write = start.elapsed().as_secs_f64();
+        let seconds = Seconds { read: subject.read_seconds, prepare, trace, write };
+        Ok(Found { lines, fairness, tolerance, file_bytes, seconds })
+    }
+
+    fn draw(
+        &self,
+        surface: &dyn Surface,
+        view: &View,
+        options: &LineOptions<'_>,
+        lines: &[LevelLine],
+        out: impl Write,
+    ) -> io::Result<()> {
+        let title = match self.style {
+            LineStyle::Reflection => "Reflection lines of",
+            LineStyle::Highlight => "Highlight lines of",
+            LineStyle::Isophote => "Isophotes of",
+        };
+        let title = format!("{title} {}", self.cage.stem());
+        let (lines, edges) = (projected(lines, view), edges(surface, view, options));
+        write_svg(&Drawing { size: self.view.size, title: &title, edges: &edges, lines: &lines }, out)
     }
 
     /// The field, and which lines of it: one set, or both sides of stripes.
-    fn field(&self, viewer: ogee::quality::Viewer, extent: [Vec3; 2], diagonal: f64) -> (Field, Vec<Levels>) {
+    fn field(&self, viewer: Viewer, bounds: [Vec3; 2]) -> (Field, Vec<Levels>) {
         let ray = match self.style {
             LineStyle::Reflection => Ray::Reflected,
             LineStyle::Highlight => Ray::Normal,
@@ -228,30 +273,28 @@ impl Lines {
                 );
             }
         };
-        let mut light = self.light.plane(extent);
-        light.half = light.half.map(|half| if half.is_finite() { half } else { REACH * diagonal });
-        let period = self.light.period(extent);
+        let mut light = self.light.plane(bounds);
+        let reach = REACH * bounds[1].distance(bounds[0]);
+        light.half = light.half.map(|half| if half.is_finite() { half } else { reach });
+        let period = self.light.period(bounds);
         let sides = std::iter::once(0.0).chain(self.light.width.map(|width| width * period));
         let levels = sides.map(|first| Levels::Every { first, period }).collect();
         (Field::Plane { light, viewer, ray, axis: 0 }, levels)
     }
+}
 
-    /// Why there are no lines.
-    fn nothing(&self, cage: &Cage, traced: &LevelLines) -> Failure {
-        let why = match traced.range {
-            None => {
-                "no ray from the surface meets the light plane: raise it, or look from elsewhere".to_owned()
-            }
-            Some(_) if self.front && traced.crossings > 0 => {
-                "no line is on the side of the surface that faces the eye".to_owned()
-            }
-            Some([low, high]) => format!(
-                "no line meets the surface: between {} and {} on the light there is none; ask for more of them",
-                figure(low),
-                figure(high)
-            ),
-        };
-        cage.failure("no_lines", why)
+/// Why there are no lines.
+fn why_none(traced: &LevelLines) -> String {
+    match traced.range {
+        None => "no ray from the surface meets the light plane: raise it, or look from elsewhere".to_owned(),
+        Some(_) if traced.crossings > 0 => {
+            "no line is where it was asked for: in sight, facing the eye, on the light".to_owned()
+        }
+        Some([low, high]) => format!(
+            "no line meets the surface, which sees the light from {} to {}: ask for more lines",
+            figure(low),
+            figure(high)
+        ),
     }
 }
 

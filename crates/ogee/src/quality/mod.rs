@@ -3,19 +3,17 @@
 //! They look at a [`Surface`]: the limit of a cage ([`LimitView`]) or NURBS patches ([`PatchView`]), cut into squares of
 //! parameters that share whole sides.
 
-mod bounds;
 mod layout;
 mod limit_view;
 mod lines;
 mod patch_view;
 mod reflection;
 
-pub use bounds::bounds;
 pub use layout::{Joint, Layout, Side, Square};
 pub use limit_view::LimitView;
 pub use lines::{Fairness, LevelLine, LevelLines, Levels, LineOptions, LinePoint, LinesError, level_lines};
 pub use patch_view::{PatchView, PatchViewError};
-pub use reflection::{Field, FieldJet, Hit, HitJet, PlaneLight, Ray, Viewer};
+pub use reflection::{Field, FieldJet, Hit, HitJet, NormalJet, PlaneLight, Ray, Viewer};
 
 use crate::limit::{Derivatives, Samples};
 use crate::mesh::FaceId;

@@ -1,7 +1,7 @@
 //! Chains: the line from one side of a cell to another, as closely as asked, as far as it is wanted.
 
 use super::lattice::Lattice;
-use super::march::Segment;
+use super::march::{Key, Segment};
 use super::probe::{Probe, Slope, Spot};
 use super::wanted::Wanted;
 use super::{LineOptions, LinePoint};
@@ -21,8 +21,8 @@ pub(super) struct Tracer<'a> {
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
     pub(super) index: i64,
-    /// The numbers of the crossings.
-    pub(super) ends: [Option<u32>; 2],
+    /// The crossings.
+    pub(super) ends: [Option<Key>; 2],
     /// The points between them, with the places where it was cut.
     pub(super) inner: Vec<LinePoint>,
     /// By how much a point between them misses the value at most.
@@ -44,6 +44,9 @@ const CAUTION: f64 = 0.8;
 
 /// Of the tolerance: how closely lines are cut off.
 const CUT: f64 = 1.0 / 16.0;
+
+/// Of the tolerance: where the ends alone say that a chord is as close, nothing between them is looked at.
+const PLAIN: f64 = 0.25;
 
 /// A chord is halved so often at most.
 const HALVINGS: u32 = 12;
@@ -75,12 +78,11 @@ impl<'a> Tracer<'a> {
         Way { tracer: self, probe, value, within, points: Vec::new() }
     }
 
-    /// The parts of a chain that are wanted; `nodes` are the crossings at its ends, which are its first and last spot.
+    /// The parts of a chain that are wanted; the crossings of the segment are its first and last spot.
     pub(super) fn clip(
         &self,
         segment: &Segment,
         chain: &[Spot],
-        nodes: [u32; 2],
         value: f64,
         probe: &mut Probe<'_>,
     ) -> Vec<Piece> {
@@ -93,7 +95,7 @@ impl<'a> Tracer<'a> {
                 continue;
             }
             if k == 0 || !wanted[k - 1] {
-                let start = (k == 0).then_some(nodes[0]);
+                let start = (k == 0).then_some(segment.ends[0].key);
                 pieces.push(Piece { index, ends: [start, None], inner: Vec::new(), residual: 0.0 });
             }
             let Some(piece) = pieces.last_mut() else { continue };
@@ -112,7 +114,7 @@ impl<'a> Tracer<'a> {
                 self.cut(segment, spot, &chain[k + 1], value, probe).iter().for_each(&mut add);
             }
             if k == last {
-                piece.ends[1] = Some(nodes[1]);
+                piece.ends[1] = Some(segment.ends[1].key);
             }
         }
         pieces
@@ -163,6 +165,9 @@ impl Way<'_, '_> {
             return Some(());
         }
         let is_short = chord <= self.tracer.options.longest;
+        if is_short && bulge(from, to).is_some_and(|bulge| bulge <= PLAIN * tolerance) {
+            return Some(());
+        }
         // The middle first: where the line bends one way, it is the farthest. The quarters are for where it bends both ways.
         let (mut middle, mut is_close) = (None, is_short);
         for share in [0.5, 0.25, 0.75] {
@@ -223,6 +228,19 @@ impl Way<'_, '_> {
         }
         outside.map_or(Moved::Lost, |(spot, farther)| Moved::Outside(spot, farther))
     }
+}
+
+/// How far a cubic with the line's directions at its ends gets away from its chord at most; `None` if they are unknown, or
+/// turn back.
+fn bulge(from: &Spot, to: &Spot) -> Option<f64> {
+    let chord = to.position - from.position;
+    let along = chord.normalized()?;
+    let slant = |spot: &Spot| {
+        let direction = spot.slope?.direction()?;
+        let forward = direction.dot(along);
+        (forward > 0.5).then(|| direction.cross(along).length() / forward)
+    };
+    Some(4.0 / 27.0 * chord.length() * (slant(from)? + slant(to)?))
 }
 
 /// The change of parameters across the line that raises the field by 1, and how steep the field is there in space.

@@ -1,8 +1,8 @@
 //! How evenly a line runs: figures by which two designs are compared.
 
+use super::probe::Probe;
 use super::{LevelLine, LinePoint};
-use crate::limit::{Derivatives, Flags, Samples};
-use crate::math::{SurfaceJet, Vec3};
+use crate::math::{Vec3, par};
 use crate::quality::{Field, Surface};
 
 /// How evenly a line runs on its surface. Its turning is that within the tangent plane, left or right: what the surface
@@ -26,6 +26,11 @@ const SHORT: f64 = 1e-3;
 const STRAIGHT: f64 = 1e-7;
 
 impl Fairness {
+    /// The figures of lines of a field, on all cores.
+    pub fn of_all(lines: &[LevelLine], surface: &dyn Surface, field: &Field) -> Vec<Fairness> {
+        par::map(lines.len(), |line| Fairness::of(&lines[line], surface, field))
+    }
+
     /// The figures of a line of a field. Directions are those of the line itself, not of its chords.
     pub fn of(line: &LevelLine, surface: &dyn Surface, field: &Field) -> Fairness {
         let length = line.points.windows(2).map(|pair| pair[0].position.distance(pair[1].position)).sum();
@@ -70,18 +75,7 @@ fn thinned(points: &[LinePoint], apart: f64) -> Vec<LinePoint> {
 
 /// Position, unit direction of the line and normal at its points, where they exist.
 fn directions(points: &[LinePoint], surface: &dyn Surface, field: &Field) -> Vec<(Vec3, Vec3, Vec3)> {
-    let at: Vec<_> = points.iter().map(|point| point.at).collect();
-    let mut samples = Samples::default();
-    surface.evaluate(&at, Derivatives::Second, &mut samples);
-    let direction = |k: usize| {
-        let position = samples.position[k];
-        let (du, dv) = (samples.du[k], samples.dv[k]);
-        let jet =
-            SurfaceJet { position, du, dv, duu: samples.duu[k], duv: samples.duv[k], dvv: samples.dvv[k] };
-        let slope = field.jet(&jet).filter(|_| !samples.flags[k].contains(Flags::AT_EXTRAORDINARY))?;
-        // What is below lies on the left.
-        let along = (slope.du * dv - slope.dv * du).normalized()?;
-        Some((position, along, samples.normal[k]))
-    };
-    (0..at.len()).filter_map(direction).collect()
+    let mut probe = Probe::new(surface, field);
+    let spots = points.iter().map(|point| probe.spot(point.at));
+    spots.filter_map(|spot| Some((spot.position, spot.slope?.direction()?, spot.normal))).collect()
 }

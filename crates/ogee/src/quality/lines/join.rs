@@ -2,6 +2,7 @@
 
 use super::chain::Piece;
 use super::crossing::Node;
+use super::march::Key;
 use super::{LevelLine, LinePoint};
 use crate::patch::Location;
 
@@ -11,39 +12,41 @@ const SAME: f64 = 1e-12;
 /// Joins pieces where one ends and another begins: at the same crossing. Lines come by index, then by their first place
 /// on the surface, whatever the order of the pieces.
 pub(super) fn join(
-    pieces: &[Piece],
+    pieces: &[&Piece],
     nodes: &[Node],
     value: impl Fn(i64) -> f64,
     size: f64,
 ) -> Vec<LevelLine> {
+    let number = |key: Key| nodes.binary_search_by_key(&key, |node| node.key).ok();
+    let ends: Vec<[Option<usize>; 2]> =
+        pieces.iter().map(|piece| piece.ends.map(|end| end.and_then(number))).collect();
     let mut after = vec![None; nodes.len()];
     let mut has_before = vec![false; nodes.len()];
-    for (number, piece) in pieces.iter().enumerate() {
-        if let Some(start) = piece.ends[0] {
-            after[start as usize] = Some(number);
+    for (piece, [start, end]) in ends.iter().enumerate() {
+        if let Some(start) = *start {
+            after[start] = Some(piece);
         }
-        if let Some(end) = piece.ends[1] {
-            has_before[end as usize] = true;
+        if let Some(end) = *end {
+            has_before[end] = true;
         }
     }
-    let point = |node: u32| {
-        let found = nodes[node as usize].found.as_ref();
+    let point = |node: usize| {
+        let found = nodes[node].found.as_ref();
         found.map(|(_, spot)| LinePoint { at: spot.at, position: spot.position })
     };
     let mut is_done = vec![false; pieces.len()];
     let mut walk = |first: usize| {
-        let mut points: Vec<LinePoint> = pieces[first].ends[0].and_then(point).into_iter().collect();
+        let mut points: Vec<LinePoint> = ends[first][0].and_then(point).into_iter().collect();
         let mut next = Some(first);
         while let Some(piece) = next.filter(|&piece| !is_done[piece]) {
             is_done[piece] = true;
             points.extend(&pieces[piece].inner);
-            points.extend(pieces[piece].ends[1].and_then(point));
-            next = pieces[piece].ends[1].and_then(|end| after[end as usize]);
+            points.extend(ends[piece][1].and_then(point));
+            next = ends[piece][1].and_then(|end| after[end]);
         }
         (points, next.is_some())
     };
-    let begins = |piece: &Piece| piece.ends[0].is_none_or(|start| !has_before[start as usize]);
-    let open = (0..pieces.len()).filter(|&number| begins(&pieces[number]));
+    let open = (0..pieces.len()).filter(|&piece| ends[piece][0].is_none_or(|start| !has_before[start]));
     let mut lines: Vec<LevelLine> = Vec::new();
     // What has no beginning is closed.
     for first in open.chain(0..pieces.len()) {

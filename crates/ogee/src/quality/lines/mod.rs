@@ -29,7 +29,8 @@ mod march;
 mod probe;
 mod wanted;
 
-use super::{Field, Surface, Viewer, bounds};
+use super::{Field, Surface, Viewer};
+use crate::limit::{Derivatives, Samples};
 use crate::math::{Vec3, par};
 use crate::patch::Location;
 use cells::{AllCells, Cell, Plan};
@@ -170,11 +171,7 @@ pub fn level_lines(
         return Err(LinesError::Tolerance { tolerance: options.tolerance });
     }
     let (unbounded, size_of_field) = unbounded(field).ok_or(LinesError::Field)?;
-    let [lower, upper] = bounds(surface).ok_or(LinesError::NoSurface)?;
-    let size = upper.distance(lower);
-    if !(size > 0.0 && size.is_finite()) {
-        return Err(LinesError::NoSurface);
-    }
+    let size = size(surface).filter(|size| *size > 0.0 && size.is_finite()).ok_or(LinesError::NoSurface)?;
     let lattice = Lattice::new(surface.layout());
     let half = match field {
         Field::Plane { light, axis, .. } => light.half[*axis],
@@ -188,7 +185,7 @@ pub fn level_lines(
     let tracing = Tracing { plan: &plan, tracer: &tracer, surface, field: &unbounded };
     let (cells, nodes, traced) = tracing.run()?;
 
-    let pieces: Vec<Piece> = traced.iter().flat_map(|square| square.pieces.iter().cloned()).collect();
+    let pieces: Vec<&Piece> = traced.iter().flat_map(|square| &square.pieces).collect();
     let lines = join::join(&pieces, &nodes, |index| levels.value(index), size);
     let rest = |node: &Node| {
         let (_, spot) = node.found.as_ref()?;
@@ -199,9 +196,21 @@ pub fn level_lines(
         lines,
         crossings: nodes.iter().filter(|node| node.found.is_some()).count(),
         max_residual: residuals.fold(0.0, f64::max),
-        straight: traced.iter().map(|square| square.straight).sum(),
+        straight: traced.iter().map(|square| square.straight + square.rough.len()).sum(),
         range: cells.range(),
     })
+}
+
+/// The diagonal of a box around the middles and corners of all squares; `None` if there are none.
+fn size(surface: &dyn Surface) -> Option<f64> {
+    let squares = surface.layout().squares().iter();
+    let places = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.5, 0.5]];
+    let at: Vec<_> = squares.flat_map(|square| places.map(|[s, t]| square.at(s, t))).collect();
+    let mut samples = Samples::default();
+    surface.evaluate(&at, Derivatives::None, &mut samples);
+    let first = *samples.position.first()?;
+    let [lower, upper] = samples.position.iter().fold([first; 2], |[a, b], &p| [a.min(p), b.max(p)]);
+    Some(upper.distance(lower))
 }
 
 /// The field on a plane without an end, and the size of its values where it is not that of the surface. `None` if its
@@ -229,6 +238,7 @@ fn unbounded(field: &Field) -> Option<(Field, Option<f64>)> {
 /// What was traced in one square.
 #[derive(Default)]
 struct Traced {
+    segments: Vec<Segment>,
     pieces: Vec<Piece>,
     /// Cells in which a line could not be followed.
     rough: Vec<Cell>,
@@ -253,21 +263,32 @@ impl<'a> Tracing<'a> {
         let Tracing { plan, tracer, .. } = *self;
         let too_many = LinesError::TooMany { most: plan.most };
         let mut cells = AllCells::new(plan, || self.probe());
-        let mut nodes = Vec::new();
+        let (mut nodes, mut traced) = (Vec::new(), Vec::<Traced>::new());
         for round in 0..=DEPTH {
             if cells.are_too_many(plan) {
                 return Err(too_many);
             }
-            let marched = par::map(cells.squares.len(), |square| {
-                march::march(square as u32, &cells.squares[square], plan)
-            });
+            let squares = &cells.squares;
+            let marched =
+                par::map(squares.len(), |square| march::march(square as u32, &squares[square], plan));
             let segments: Option<Vec<Vec<Segment>>> = marched.into_iter().collect();
             let segments = segments.filter(|all| all.iter().map(Vec::len).sum::<usize>() <= plan.most);
             let segments = segments.ok_or(too_many.clone())?;
             let crossings = segments.iter().flatten().flat_map(|segment| segment.ends);
             let value = |index| plan.levels.value(index);
             nodes = crossing::find(crossings, &nodes, plan.lattice, value, tracer.residual, || self.probe());
-            let traced = par::map(segments.len(), |square| self.trace(&segments[square], &nodes));
+            // Most squares stay as they are from one round to the next.
+            let is_new =
+                |square: usize| traced.get(square).is_none_or(|old| old.segments != segments[square]);
+            let new = par::map(segments.len(), |square| {
+                is_new(square).then(|| self.trace(segments[square].clone(), &nodes))
+            });
+            traced.resize_with(segments.len(), Traced::default);
+            for (square, new) in new.into_iter().enumerate() {
+                if let Some(new) = new {
+                    traced[square] = new;
+                }
+            }
             let rough = (0..)
                 .zip(&traced)
                 .flat_map(|(square, traced)| traced.rough.iter().map(move |&cell| (square, cell)));
@@ -281,18 +302,15 @@ impl<'a> Tracing<'a> {
     }
 
     /// The lines through one square.
-    fn trace(&self, segments: &[Segment], nodes: &[Node]) -> Traced {
+    fn trace(&self, segments: Vec<Segment>, nodes: &[Node]) -> Traced {
         let (tracer, mut probe) = (self.tracer, self.probe());
         let mut traced = Traced::default();
-        for segment in segments {
-            let numbers = segment.ends.map(|end| {
-                let place = nodes.binary_search_by_key(&end.key, |node| node.key);
-                place.expect("every crossing has its node") as u32
-            });
+        for segment in &segments {
             // In the parameters of the cell's own square.
             let spot = |k: usize| -> Option<Spot> {
-                let (x, spot) = nodes[numbers[k] as usize].found?;
                 let end = &segment.ends[k];
+                let place = nodes.binary_search_by_key(&end.key, |node| node.key);
+                let (x, spot) = nodes[place.expect("every crossing has its node")].found?;
                 let x = if end.is_turned { 1.0 - x } else { x };
                 Some(Spot { at: self.plan.lattice.along(end.own, x), ..spot })
             };
@@ -307,8 +325,9 @@ impl<'a> Tracing<'a> {
             let mut chain = vec![from];
             chain.extend(inner.unwrap_or_default());
             chain.push(to);
-            traced.pieces.extend(tracer.clip(segment, &chain, numbers, value, &mut probe));
+            traced.pieces.extend(tracer.clip(segment, &chain, value, &mut probe));
         }
+        traced.segments = segments;
         traced
     }
 }

@@ -3,7 +3,7 @@
 use crate::limit::{Derivatives, Flags, Samples};
 use crate::math::{SurfaceJet, Vec3};
 use crate::patch::Location;
-use crate::quality::{Field, FieldJet, Surface};
+use crate::quality::{Field, FieldJet, NormalJet, Surface};
 
 /// Evaluates a field on a surface; keeps its memory.
 pub(super) struct Probe<'a> {
@@ -41,6 +41,14 @@ pub(super) struct Slope {
     pub(super) field: [f64; 2],
 }
 
+impl Slope {
+    /// The unit direction of the line: what is below its value lies on its left.
+    pub(super) fn direction(&self) -> Option<Vec3> {
+        let Slope { tangents: [du, dv], field: [a, b] } = *self;
+        (a * dv - b * du).normalized()
+    }
+}
+
 impl<'a> Probe<'a> {
     pub(super) fn new(surface: &'a dyn Surface, field: &'a Field) -> Probe<'a> {
         Probe { surface, field, samples: Samples::default() }
@@ -69,11 +77,9 @@ impl<'a> Probe<'a> {
         let jet = SurfaceJet { position, du, dv, duu: all.duu[0], duv: all.duv[0], dvv: all.dvv[0] };
         // At an extraordinary vertex tangents are no derivatives.
         let has_slope = !flags.contains(Flags::AT_EXTRAORDINARY);
-        let slope = has_slope.then(|| self.field.jet(&jet)).flatten().and_then(
-            |FieldJet { du: a, dv: b, .. }| {
-                (a.is_finite() && b.is_finite()).then_some(Slope { tangents: [du, dv], field: [a, b] })
-            },
-        );
+        let jet = has_slope.then(|| NormalJet::of(&jet)).flatten().and_then(|jet| self.field.jet(&jet));
+        let slope = jet.filter(|jet| jet.du.is_finite() && jet.dv.is_finite());
+        let slope = slope.map(|FieldJet { du: a, dv: b, .. }| Slope { tangents: [du, dv], field: [a, b] });
         Spot { at, position, normal, value: value(self.field, position, normal, flags), slope }
     }
 }
