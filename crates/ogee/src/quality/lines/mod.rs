@@ -315,7 +315,13 @@ impl<'a> Tracing<'a> {
                 let x = if end.is_turned { 1.0 - x } else { x };
                 Some(Spot { at: self.plan.lattice.along(end.own, x), ..spot })
             };
-            let (Some(from), Some(to)) = (spot(0), spot(1)) else { continue };
+            let (Some(from), Some(to)) = (spot(0), spot(1)) else {
+                // The field leaps: as small a part of the line is left out as cells can be.
+                if segment.cell.size > 1 {
+                    traced.rough.push(segment.cell);
+                }
+                continue;
+            };
             let value = self.plan.levels.value(segment.ends[0].key.index);
             let inner = tracer.follow(segment, [&from, &to], value, &mut probe);
             match &inner {
