@@ -147,7 +147,8 @@ fn chords_are_as_close_as_asked() {
     assert!(looked > 50_000 && worst > 0.5);
 }
 
-/// True if a line may end at a place: on a border or a sharp crease, or in a cell beside a vertex without a tangent plane.
+/// True if a line may end at a place: on a border or a sharp crease, or less than a hundredth of
+/// a face from a vertex without a tangent plane.
 fn may_end(view: &dyn Surface, at: Location) -> bool {
     let layout = view.layout();
     let is_end = |square: u32, side: u32| match layout.joint_of(Side { square, side }) {
@@ -167,7 +168,7 @@ fn may_end(view: &dyn Surface, at: Location) -> bool {
         let [a, b] = square.corner.parameters();
         let (s, t) = ((u - a) / square.size[0], (v - b) / square.size[1]);
         let on = [t == 0.0, s == 1.0, t == 1.0, s == 0.0];
-        let beside = |x: f64, y: f64| (x - y).abs() < 2.0 / 256.0;
+        let beside = |x: f64, y: f64| (x - y).abs() < 0.01;
         let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         (0..4).any(|side| on[side as usize] && is_end(number, side))
             || corners.iter().any(|&[x, y]| beside(s, x) && beside(t, y) && !has_plane(square.at(x, y)))

@@ -23,7 +23,7 @@ use crate::output::Destination;
 use crate::report::{Console, Table, bytes, figure};
 use crate::subject::Subject;
 use crate::system;
-use crate::view::{LightArguments, ViewArguments};
+use crate::view::{LightArguments, ViewArguments, positive};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -43,7 +43,7 @@ pub(crate) struct Lines {
     #[arg(long, value_name = "STYLE", default_value = "reflection", value_parser = formats::<LineStyle>())]
     style: LineStyle,
     /// How far chords may be from the curve, in units of the cage [default: 1e-4 of the diagonal]
-    #[arg(long, value_name = "LENGTH")]
+    #[arg(long, value_name = "LENGTH", value_parser = positive)]
     tolerance: Option<f64>,
     /// Only where the surface faces the eye
     #[arg(long)]

@@ -156,7 +156,7 @@ const RESIDUAL: f64 = 1e-12;
 /// Traces the lines on which a field has the wanted values.
 ///
 /// A bounded light plane cuts lines off where they leave it. On either side of a crease that never fades lines end; they
-/// end, too, at borders, and where the field has no value, to within a 256th of a face.
+/// end, too, at borders, and less than a hundredth of a face from where the field has no value, or leaps.
 ///
 /// # Errors
 /// If something asked for makes no sense, or would not fit into memory.
