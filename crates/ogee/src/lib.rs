@@ -105,7 +105,7 @@ pub mod stam;
 mod stencil;
 
 pub use limit::{
-    Closest, ClosestPoints, Derivatives, Flags, LimitJet, LimitSurface, LimitVertex, Samples, SurfacePoint,
+    Closest, ClosestPoints, Derivatives, FacePiece, Flags, LimitJet, LimitSurface, LimitVertex, Samples, SurfacePoint,
     limit_vertices,
 };
 pub use math::{Curvature, Grid, Interpolate, SurfaceJet, Vec3};

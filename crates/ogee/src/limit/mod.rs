@@ -7,6 +7,7 @@ mod closest;
 mod corner;
 mod evaluate;
 mod out;
+mod pieces;
 mod place;
 mod point;
 mod stencils;
@@ -15,6 +16,7 @@ mod vertices;
 mod walk;
 
 pub use closest::{Closest, ClosestPoints};
+pub use pieces::{FacePiece, PatchNet, TailPiece};
 pub use point::{Derivatives, Flags, LimitJet, Samples, SurfacePoint};
 pub use surface::LimitSurface;
 pub(crate) use vertices::limit_vertex;
