@@ -11,7 +11,7 @@ mod reflection;
 pub use layout::{Joint, Layout, Side, Square};
 pub use limit_view::LimitView;
 pub use patch_view::{PatchView, PatchViewError};
-pub use reflection::{Field, FieldJet, Hit, HitJet, PlaneLight, Ray, Viewer};
+pub use reflection::{Field, FieldJet, Hit, HitJet, NormalJet, PlaneLight, Ray, Viewer};
 
 use crate::limit::{Derivatives, Samples};
 use crate::mesh::FaceId;
