@@ -17,13 +17,8 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
-    /// The frame of points.
-    pub(crate) fn new(points: &[Vec3]) -> Frame {
-        let corner = |pick: fn(f64, f64) -> f64| {
-            let pick = |a: Vec3, b: Vec3| Vec3::new(pick(a.x, b.x), pick(a.y, b.y), pick(a.z, b.z));
-            points.iter().copied().reduce(pick).unwrap_or(Vec3::ZERO)
-        };
-        let (lower, upper) = (corner(f64::min), corner(f64::max));
+    /// The frame of a box.
+    pub(crate) fn new([lower, upper]: [Vec3; 2]) -> Frame {
         let diagonal = upper.distance(lower);
         let scale = if diagonal > 0.0 { 1.0 / diagonal } else { 1.0 };
         Frame { centre: 0.5 * (lower + upper), scale }

@@ -4,6 +4,8 @@
 //! vectors of three stand where a number can follow them; a test asks `naga` whether both agree on every field.
 
 use bytemuck::{Pod, Zeroable};
+use ogee_render::colour::{DIVERGING, RISING};
+use ogee_render::shade::palette;
 
 /// Width of the textures that hold data where there are no storage buffers, in texels of 16 bytes.
 pub(crate) const TEXTURE_WIDTH: u32 = 1024;
@@ -29,17 +31,21 @@ pub(crate) mod node {
     pub(crate) const SHIFT: u32 = 30;
 }
 
-/// Bits of the last number of a pixel's parameters; the sides that are edges follow from [`flag::EDGES`] on.
+/// Bits of the last number of a pixel's parameters.
 pub(crate) mod flag {
     /// There is a surface in the pixel.
     pub(crate) const COVERED: u32 = 1;
-    /// What is stored is `1 - u`.
-    pub(crate) const FAR_U: u32 = 2;
-    /// What is stored is `1 - v`.
-    pub(crate) const FAR_V: u32 = 4;
-    /// The first of four bits.
-    pub(crate) const EDGES: u32 = 4;
+    /// What is stored is one minus the first parameter.
+    pub(crate) const FAR_S: u32 = 2;
+    /// What is stored is one minus the second.
+    pub(crate) const FAR_T: u32 = 4;
 }
+
+/// The value of pixels that have none: where a map ends, and where no ray meets the light. No number has these bits.
+pub(crate) const NO_VALUE: u32 = 0x7fc0_0000;
+
+/// The value of pixels that show no surface.
+pub(crate) const NO_SURFACE: u32 = 0xffff_ffff;
 
 /// Numbers of styles, patterns and quantities in shaders.
 pub(crate) mod code {
@@ -49,6 +55,11 @@ pub(crate) mod code {
     pub(crate) const ISOPHOTE: u32 = 3;
     pub(crate) const ZEBRA: u32 = 4;
     pub(crate) const CURVATURE: u32 = 5;
+    pub(crate) const ERROR: u32 = 6;
+    pub(crate) const COMBS: u32 = 7;
+
+    pub(crate) const SURFACE: u32 = 0;
+    pub(crate) const POLYGON: u32 = 1;
 
     pub(crate) const REFLECTED: u32 = 0;
     pub(crate) const NORMAL: u32 = 1;
@@ -77,15 +88,19 @@ const CONSTANTS: &[(&str, u32)] = &[
     ("TAIL", node::TAIL),
     ("NODE_SHIFT", node::SHIFT),
     ("COVERED", flag::COVERED),
-    ("FAR_U", flag::FAR_U),
-    ("FAR_V", flag::FAR_V),
-    ("EDGES", flag::EDGES),
+    ("FAR_S", flag::FAR_S),
+    ("FAR_T", flag::FAR_T),
+    ("NO_VALUE", NO_VALUE),
     ("SHADED", code::SHADED),
     ("WIREFRAME", code::WIREFRAME),
     ("LIT", code::LIT),
     ("ISOPHOTE", code::ISOPHOTE),
     ("ZEBRA", code::ZEBRA),
     ("CURVATURE", code::CURVATURE),
+    ("ERROR", code::ERROR),
+    ("COMBS", code::COMBS),
+    ("SURFACE", code::SURFACE),
+    ("POLYGON", code::POLYGON),
     ("REFLECTED", code::REFLECTED),
     ("NORMAL", code::NORMAL),
     ("LINES", code::LINES),
@@ -197,6 +212,17 @@ shared! {
         unused: [u32; 2],
     }
 
+    /// A square of parameters: `ogee::quality::Square`.
+    struct Square {
+        corner: [f32; 2],
+        size: [f32; 2],
+        /// Its parametric face.
+        face: u32,
+        /// A bit for each side that is an edge.
+        sides: u32,
+        unused: [u32; 2],
+    }
+
     /// A camera in pixels: `ogee_render::View`.
     struct View {
         eye: [f32; 3],
@@ -245,6 +271,8 @@ shared! {
         /// Degrees of a pair of isophotes; pairs of zebra stripes.
         step: f32,
         style: u32,
+        /// Whether points are of the surface or of the polygon.
+        points: u32,
         /// Which ray meets the plane.
         ray: u32,
         quantity: u32,
@@ -252,21 +280,16 @@ shared! {
         limit: f32,
         /// Newton steps towards the middle of the pixel.
         newton: u32,
-        /// How many samples stand in a list.
-        count: u32,
-        unused: [u32; 2],
+        /// Cells along a side of the polygon's grids.
+        cells: u32,
+        unused: u32,
     }
 
-    /// A corner of a polygon.
+    /// A corner of the polygon.
     struct Vertex {
         position: [f32; 3],
-        /// Its parametric face.
-        face: u32,
-        normal: [f32; 3],
-        /// Which sides of its square are edges.
-        edges: u32,
-        parameters: [f32; 2],
-        unused: [f32; 2],
+        /// The number of its square.
+        square: u32,
     }
 }
 
@@ -278,6 +301,7 @@ pub(crate) fn prelude(part: u32) -> String {
     for declaration in [
         Face::declaration(),
         Tail::declaration(),
+        Square::declaration(),
         View::declaration(),
         PlaneLight::declaration(),
         Pattern::declaration(),
@@ -285,7 +309,28 @@ pub(crate) fn prelude(part: u32) -> String {
     ] {
         text += &declaration;
     }
-    text + &unpack::<Face>() + &unpack::<Tail>()
+    text + &colours() + &unpack::<Face>() + &unpack::<Tail>() + &unpack::<Square>()
+}
+
+/// The palette and the scales of maps.
+fn colours() -> String {
+    let vector = |[r, g, b]: [f32; 3]| format!("vec3<f32>({r:?}, {g:?}, {b:?})");
+    let single = [
+        ("BODY", palette::BODY),
+        ("INSIDE", palette::INSIDE),
+        ("PAINT", palette::PAINT),
+        ("PAINT_INSIDE", palette::PAINT_INSIDE),
+        ("LIGHT", palette::LIGHT),
+        ("EDGE", palette::EDGE),
+        ("DARK", palette::DARK),
+        ("NOTHING", palette::NOTHING),
+    ];
+    let scales = [("DIVERGING", DIVERGING), ("RISING", RISING)];
+    let single = single.map(|(name, colour)| format!("const {name} = {};\n", vector(colour)));
+    let scales = scales.map(|(name, scale)| {
+        format!("const {name} = array<vec3<f32>, 5>({});\n", scale.map(vector).join(", "))
+    });
+    single.concat() + &scales.concat()
 }
 
 /// A function that makes a struct from words of sixteen bytes, which is how buffers and textures hold it.

@@ -40,10 +40,10 @@ struct Footprint {
     y: vec2<f32>,
 }
 
-fn footprint(view: View, jet: Jet) -> Footprint {
-    let q = to_camera(view, jet.position);
-    let a = pixel_motion(view, q, turned(view, jet.du));
-    let b = pixel_motion(view, q, turned(view, jet.dv));
+fn footprint(view: View, position: vec3<f32>, tangents: mat2x3<f32>) -> Footprint {
+    let q = to_camera(view, position);
+    let a = pixel_motion(view, q, turned(view, tangents[0]));
+    let b = pixel_motion(view, q, turned(view, tangents[1]));
     let determinant = a.x * b.y - b.x * a.y;
     return Footprint(vec2<f32>(b.y, -a.y) / determinant, vec2<f32>(-b.x, a.x) / determinant);
 }
@@ -58,25 +58,4 @@ fn spread(pixel: Footprint, du: f32, dv: f32) -> f32 {
 fn distance_to_zero(pixel: Footprint, value: f32, du: f32, dv: f32) -> f32 {
     let along = vec2<f32>(du, dv);
     return abs(value) / max(length(vec2<f32>(dot(pixel.x, along), dot(pixel.y, along))), 1e-30);
-}
-
-// A step longer than this leaves the region in which Newton's method can be trusted.
-const LONGEST = 0.15;
-
-// Moves parameters of a face to where the middle of the pixel shows the surface, as far as the face goes.
-fn exact(view: View, face: u32, parameters: vec4<f32>, middle: vec2<f32>, steps: u32) -> vec4<f32> {
-    var q = parameters;
-    for (var step = 0u; step < steps; step++) {
-        let jet = surface_at(face, q).jet;
-        let pixel = footprint(view, jet);
-        let missing = middle - pixel_of(view, to_camera(view, jet.position));
-        let move_uv = missing.x * pixel.x + missing.y * pixel.y;
-        // What is no number compares as false.
-        if !(dot(move_uv, move_uv) < 1e30) {
-            break;
-        }
-        let limited = clamp(move_uv, vec2<f32>(-LONGEST), vec2<f32>(LONGEST));
-        q = clamp(q + vec4<f32>(limited, -limited), vec4<f32>(0.0), vec4<f32>(1.0));
-    }
-    return q;
 }

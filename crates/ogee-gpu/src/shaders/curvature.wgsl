@@ -47,12 +47,8 @@ fn bending(frame: TangentFrame) -> vec3<f32> {
     return vec3<f32>(frame.uu, mixed, across);
 }
 
-// Derivatives along u and v of the unit normal; zero where there are none.
-fn normal_derivatives(jet: Jet) -> mat2x3<f32> {
-    let f = tangent_frame(jet);
-    if !f.exists {
-        return mat2x3<f32>();
-    }
+// Derivatives along u and v of the unit normal.
+fn normal_derivatives(f: TangentFrame) -> mat2x3<f32> {
     // The normal turns against the direction in which the surface bends.
     let du = f.uu * f.t1 + (f.uv - f.cosine * f.uu) / f.sine * f.t2;
     let dv = f.uv * f.t1 + (f.vv - f.cosine * f.uv) / f.sine * f.t2;
@@ -67,11 +63,7 @@ struct Curvature {
     k2: f32,
 }
 
-fn surface_curvature(jet: Jet) -> Curvature {
-    let frame = tangent_frame(jet);
-    if !frame.exists {
-        return Curvature();
-    }
+fn curvature_of(frame: TangentFrame) -> Curvature {
     let b = bending(frame);
     let mean = 0.5 * (b.x + b.z);
     let radius = length(vec2<f32>(0.5 * (b.x - b.z), b.y));

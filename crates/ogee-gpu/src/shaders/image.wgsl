@@ -1,7 +1,5 @@
 // A picture on a light plane, at every scale: twins of `ogee_render::Light`.
 
-@group(0) @binding(1) var light_texels: texture_2d<f32>;
-
 struct Found {
     exists: bool,
     colour: vec3<f32>,
@@ -17,8 +15,7 @@ fn scale_of(size: vec2<u32>, level: u32) -> vec3<u32> {
 }
 
 fn light_texel(scale: vec3<u32>, x: u32, y: u32) -> vec3<f32> {
-    let i = scale.z + y * scale.x + x;
-    return textureLoad(light_texels, vec2<u32>(i % TEXTURE_WIDTH, i / TEXTURE_WIDTH), 0).xyz;
+    return textureLoad(light_texels, texel(scale.z + y * scale.x + x), 0).xyz;
 }
 
 // Between the four nearest pixels of one scale.

@@ -3,10 +3,11 @@
 @group(1) @binding(0) var<storage, read> faces: array<vec4<u32>>;
 @group(1) @binding(1) var<storage, read> nodes: array<vec4<u32>>;
 @group(1) @binding(2) var<storage, read> tails: array<vec4<u32>>;
-@group(1) @binding(3) var<storage, read> points_0: array<vec4<f32>>;
-@group(1) @binding(4) var<storage, read> points_1: array<vec4<f32>>;
-@group(1) @binding(5) var<storage, read> points_2: array<vec4<f32>>;
-@group(1) @binding(6) var<storage, read> points_3: array<vec4<f32>>;
+@group(1) @binding(3) var<storage, read> squares: array<vec4<u32>>;
+@group(1) @binding(4) var<storage, read> points_0: array<vec4<f32>>;
+@group(1) @binding(5) var<storage, read> points_1: array<vec4<f32>>;
+@group(1) @binding(6) var<storage, read> points_2: array<vec4<f32>>;
+@group(1) @binding(7) var<storage, read> points_3: array<vec4<f32>>;
 
 fn load_face(i: u32) -> Face {
     return unpack_face(faces[i]);
@@ -18,6 +19,10 @@ fn load_node(i: u32) -> vec4<u32> {
 
 fn load_tail(i: u32) -> Tail {
     return unpack_tail(tails[3u * i], tails[3u * i + 1u], tails[3u * i + 2u]);
+}
+
+fn load_square(i: u32) -> Square {
+    return unpack_square(squares[2u * i], squares[2u * i + 1u]);
 }
 
 // Four control points, one in each column. A row of a net never lies in two parts.

@@ -3,14 +3,11 @@
 @group(1) @binding(0) var faces: texture_2d<u32>;
 @group(1) @binding(1) var nodes: texture_2d<u32>;
 @group(1) @binding(2) var tails: texture_2d<u32>;
-@group(1) @binding(3) var points_0: texture_2d<f32>;
-@group(1) @binding(4) var points_1: texture_2d<f32>;
-@group(1) @binding(5) var points_2: texture_2d<f32>;
-@group(1) @binding(6) var points_3: texture_2d<f32>;
-
-fn texel(i: u32) -> vec2<u32> {
-    return vec2<u32>(i % TEXTURE_WIDTH, i / TEXTURE_WIDTH);
-}
+@group(1) @binding(3) var squares: texture_2d<u32>;
+@group(1) @binding(4) var points_0: texture_2d<f32>;
+@group(1) @binding(5) var points_1: texture_2d<f32>;
+@group(1) @binding(6) var points_2: texture_2d<f32>;
+@group(1) @binding(7) var points_3: texture_2d<f32>;
 
 fn load_face(i: u32) -> Face {
     return unpack_face(textureLoad(faces, texel(i), 0));
@@ -24,6 +21,11 @@ fn load_tail(i: u32) -> Tail {
     let a = textureLoad(tails, texel(3u * i), 0);
     let b = textureLoad(tails, texel(3u * i + 1u), 0);
     return unpack_tail(a, b, textureLoad(tails, texel(3u * i + 2u), 0));
+}
+
+fn load_square(i: u32) -> Square {
+    let a = textureLoad(squares, texel(2u * i), 0);
+    return unpack_square(a, textureLoad(squares, texel(2u * i + 1u), 0));
 }
 
 // Four points of one texture, from a texel on.

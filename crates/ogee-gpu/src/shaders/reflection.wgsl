@@ -16,12 +16,12 @@ fn swing(view: vec4<f32>, normal: vec3<f32>, tangent: vec3<f32>, turn: vec3<f32>
 }
 
 // The reflected ray and its derivatives.
-fn reflected_jet(view: View, jet: Jet, normal: vec3<f32>, bend: mat2x3<f32>) -> RayJet {
-    let ray = direction(view, jet.position);
+fn reflected_jet(view: View, at: Point) -> RayJet {
+    let ray = direction(view, at.position);
     return RayJet(
-        ray.xyz - 2.0 * dot(ray.xyz, normal) * normal,
-        swing(ray, normal, jet.du, bend[0]),
-        swing(ray, normal, jet.dv, bend[1]),
+        ray.xyz - 2.0 * dot(ray.xyz, at.normal) * at.normal,
+        swing(ray, at.normal, at.tangents[0], at.turns[0]),
+        swing(ray, at.normal, at.tangents[1], at.turns[1]),
     );
 }
 
@@ -40,21 +40,20 @@ fn moved_hit(light: PlaneLight, ray: vec3<f32>, reach: f32, tangent: vec3<f32>, 
     return vec2<f32>(dot(in_plane, light.axis_a), dot(in_plane, light.axis_b));
 }
 
-fn hit_jet(light: PlaneLight, ray: u32, view: View, jet: Jet, normal: vec3<f32>) -> HitJet {
-    let bend = normal_derivatives(jet);
-    var way = RayJet(normal, bend[0], bend[1]);
+fn hit_jet(light: PlaneLight, ray: u32, view: View, at: Point) -> HitJet {
+    var way = RayJet(at.normal, at.turns[0], at.turns[1]);
     if ray == REFLECTED {
-        way = reflected_jet(view, jet, normal, bend);
+        way = reflected_jet(view, at);
     }
     let plane = cross(light.axis_a, light.axis_b);
     let descent = dot(way.along, plane);
-    let reach = dot(light.centre - jet.position, plane) / descent;
-    let offset = jet.position + reach * way.along - light.centre;
+    let reach = dot(light.centre - at.position, plane) / descent;
+    let offset = at.position + reach * way.along - light.centre;
     var hit: HitJet;
     hit.at = vec2<f32>(dot(offset, light.axis_a), dot(offset, light.axis_b));
-    hit.exists = abs(descent) > GRAZING && reach > 0.0
+    hit.exists = at.has_turns && abs(descent) > GRAZING && reach > 0.0
         && abs(hit.at.x) <= light.half_a && abs(hit.at.y) <= light.half_b;
-    hit.du = moved_hit(light, way.along, reach, jet.du, way.du);
-    hit.dv = moved_hit(light, way.along, reach, jet.dv, way.dv);
+    hit.du = moved_hit(light, way.along, reach, at.tangents[0], way.du);
+    hit.dv = moved_hit(light, way.along, reach, at.tangents[1], way.dv);
     return hit;
 }

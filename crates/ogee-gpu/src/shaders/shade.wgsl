@@ -31,9 +31,9 @@ fn bands(view: View, point: vec3<f32>, normal: vec3<f32>, bright: f32) -> vec3<f
 
 // A pattern on the light plane as a point sees it.
 fn lit(view: View, light: PlaneLight, ray: u32, pattern: Pattern, at: Point, pixel: Footprint) -> vec3<f32> {
-    let hit = hit_jet(light, ray, view, at.jet, at.normal);
-    if at.is_vertex || !hit.exists {
-        return paint(view, at.jet.position, at.normal, LIGHT, 0.0);
+    let hit = hit_jet(light, ray, view, at);
+    if !hit.exists {
+        return paint(view, at.position, at.normal, LIGHT, 0.0);
     }
     let wide = vec2<f32>(spread(pixel, hit.du.x, hit.dv.x), spread(pixel, hit.du.y, hit.dv.y));
     let place = hit.at / pattern.period;
@@ -57,7 +57,7 @@ fn lit(view: View, light: PlaneLight, ray: u32, pattern: Pattern, at: Point, pix
             }
         }
     }
-    return paint(view, at.jet.position, at.normal, colour, bright);
+    return paint(view, at.position, at.normal, colour, bright);
 }
 
 // Bands of equal angle, in degrees, between the normal and the light.
@@ -65,25 +65,24 @@ fn isophote(view: View, light: vec3<f32>, step: f32, at: Point, pixel: Footprint
     let angle = atan2(length(cross(at.normal, light)), dot(at.normal, light));
     // The angle changes as the normal turns towards the light, and never faster than the normal.
     let sine = max(sin(angle), 1e-6);
-    let turns = normal_derivatives(at.jet);
-    let most = vec2<f32>(length(turns[0]), length(turns[1]));
-    let slope = clamp(-(light * turns) / sine, -most, most);
-    let wide = select(spread(pixel, slope.x, slope.y), 0.0, at.is_vertex);
+    let most = vec2<f32>(length(at.turns[0]), length(at.turns[1]));
+    let slope = clamp(-(light * at.turns) / sine, -most, most);
+    let wide = select(0.0, spread(pixel, slope.x, slope.y), at.has_turns);
     let bright = stripe(degrees(angle) / step, degrees(wide) / step, 0.5);
-    return bands(view, at.jet.position, at.normal, bright);
+    return bands(view, at.position, at.normal, bright);
 }
 
 // Stripes of an environment far away.
 fn zebra(view: View, axis: vec3<f32>, count: f32, at: Point, pixel: Footprint) -> vec3<f32> {
     var bright = 0.5;
-    if !at.is_vertex {
-        let ray = reflected_jet(view, at.jet, at.normal, normal_derivatives(at.jet));
+    if at.has_turns {
+        let ray = reflected_jet(view, at);
         let sine = clamp(dot(ray.along, axis), -1.0, 1.0);
         let slope = inverseSqrt(max(1.0 - sine * sine, 1e-9));
         let wide = spread(pixel, slope * dot(ray.du, axis), slope * dot(ray.dv, axis));
         bright = stripe(count / PI * asin(sine), count / PI * wide, 0.5);
     }
-    return bands(view, at.jet.position, at.normal, bright);
+    return bands(view, at.position, at.normal, bright);
 }
 
 struct Value {
@@ -93,14 +92,13 @@ struct Value {
 
 // The curvature that a map shows.
 fn curvature(quantity: u32, at: Point) -> Value {
-    let found = surface_curvature(at.jet);
-    let exists = found.exists && !at.is_vertex;
+    let found = at.curvature;
     switch quantity {
-        case GAUSS, GAUSS_SIGN: { return Value(exists, found.gauss); }
-        case MEAN: { return Value(exists, found.mean); }
-        case K1: { return Value(exists, found.k1); }
-        case K2: { return Value(exists, found.k2); }
-        default: { return Value(exists, max(abs(found.k1), abs(found.k2))); }
+        case GAUSS, GAUSS_SIGN: { return Value(found.exists, found.gauss); }
+        case MEAN: { return Value(found.exists, found.mean); }
+        case K1: { return Value(found.exists, found.k1); }
+        case K2: { return Value(found.exists, found.k2); }
+        default: { return Value(found.exists, max(abs(found.k1), abs(found.k2))); }
     }
 }
 
@@ -126,36 +124,28 @@ fn on_body(view: View, point: vec3<f32>, normal: vec3<f32>, colour: vec3<f32>) -
 // Pixels of an edge.
 const EDGE_WIDTH = 1.3;
 
-// The edges of a face on the body: one bit for each side of the parameters' square that is an edge.
-fn wire(view: View, q: vec4<f32>, sides: u32, at: Point, pixel: Footprint) -> vec3<f32> {
+// The edges of a square of parameters on the body: one bit for each side that is one, counter-clockwise from the one along
+// the first parameter.
+fn wire(view: View, st: vec4<f32>, size: vec2<f32>, sides: u32, at: Point, pixel: Footprint) -> vec3<f32> {
     var nearest = 1e30;
     let distances = vec4<f32>(
-        distance_to_zero(pixel, q.y, 0.0, 1.0),
-        distance_to_zero(pixel, q.z, 1.0, 0.0),
-        distance_to_zero(pixel, q.w, 0.0, 1.0),
-        distance_to_zero(pixel, q.x, 1.0, 0.0),
+        distance_to_zero(pixel, size.y * st.y, 0.0, 1.0),
+        distance_to_zero(pixel, size.x * st.z, 1.0, 0.0),
+        distance_to_zero(pixel, size.y * st.w, 0.0, 1.0),
+        distance_to_zero(pixel, size.x * st.x, 1.0, 0.0),
     );
     for (var side = 0u; side < 4u; side++) {
         if (sides >> side & 1u) != 0u {
             nearest = min(nearest, distances[side]);
         }
     }
-    return mix(body(view, at.jet.position, at.normal), EDGE, line(nearest, EDGE_WIDTH));
+    return mix(body(view, at.position, at.normal), EDGE, line(nearest, EDGE_WIDTH));
 }
 
-// The colour of a point in a style.
-fn colour_of(picture: Picture, q: vec4<f32>, sides: u32, at: Point) -> vec3<f32> {
-    let view = picture.view;
-    let pixel = footprint(view, at.jet);
-    switch picture.style {
-        case SHADED: { return body(view, at.jet.position, at.normal); }
-        case WIREFRAME: { return wire(view, q, sides, at, pixel); }
-        case LIT: { return lit(view, picture.light, picture.ray, picture.pattern, at, pixel); }
-        case ISOPHOTE: { return isophote(view, picture.direction, picture.step, at, pixel); }
-        case ZEBRA: { return zebra(view, picture.direction, picture.step, at, pixel); }
-        default: {
-            let colour = map(picture.quantity, curvature(picture.quantity, at), picture.limit);
-            return on_body(view, at.jet.position, at.normal, colour);
-        }
+// The colour of a displacement of lines, in pixels, up to `limit`.
+fn displacement(pixels: Value, limit: f32) -> vec3<f32> {
+    if !pixels.exists {
+        return NOTHING;
     }
+    return along(RISING, pixels.value / limit);
 }

@@ -3,7 +3,7 @@
 // Parameters are passed as (u, v, 1 - u, 1 - v), each exact near its own zero: so a point may be as near to any corner as
 // numbers go.
 
-struct Point {
+struct Sample {
     jet: Jet,
     // Unit normal; zero where there is none.
     normal: vec3<f32>,
@@ -43,7 +43,7 @@ fn unit_normal(du: vec3<f32>, dv: vec3<f32>) -> vec3<f32> {
 }
 
 // A chain: the exponent of the larger parameter says which step, the other bits which tile.
-fn tail_point(tail: Tail, q: vec4<f32>) -> Point {
+fn tail_sample(tail: Tail, q: vec4<f32>) -> Sample {
     let last = i32(tail.steps + STEPS_BEYOND);
     var at = to_corner(tail.corner, q);
     var larger = max(at.x, at.y);
@@ -64,19 +64,19 @@ fn tail_point(tail: Tail, q: vec4<f32>) -> Point {
     let net = tail.first + 3u * u32(doublings - beyond - 1) + tile;
     let jet = bicubic(net, from_corner(tail.corner, inner));
     let shrunk = pow(tail.eigenvalue, f32(beyond));
-    var point: Point;
-    point.jet = rescaled(Jet(jet.position, shrunk * jet.du, shrunk * jet.dv, shrunk * jet.duu, shrunk * jet.duv, shrunk * jet.dvv), scale);
-    point.jet.position = tail.limit + select(shrunk * jet.position, vec3<f32>(0.0), is_vertex);
-    point.normal = unit_normal(jet.du, jet.dv);
+    var sample: Sample;
+    sample.jet = rescaled(Jet(jet.position, shrunk * jet.du, shrunk * jet.dv, shrunk * jet.duu, shrunk * jet.duv, shrunk * jet.dvv), scale);
+    sample.jet.position = tail.limit + select(shrunk * jet.position, vec3<f32>(0.0), is_vertex);
+    sample.normal = unit_normal(jet.du, jet.dv);
     if is_vertex {
-        point.normal = tail.normal;
+        sample.normal = tail.normal;
     }
-    point.is_vertex = is_vertex;
-    return point;
+    sample.is_vertex = is_vertex;
+    return sample;
 }
 
 // The surface at parameters of a face.
-fn surface_at(number: u32, parameters: vec4<f32>) -> Point {
+fn surface_at(number: u32, parameters: vec4<f32>) -> Sample {
     let face = load_face(number);
     var q = parameters;
     var node = face.root;
@@ -92,14 +92,14 @@ fn surface_at(number: u32, parameters: vec4<f32>) -> Point {
         scale *= 2.0;
     }
     let index = node & ((1u << NODE_SHIFT) - 1u);
-    var point: Point;
+    var sample: Sample;
     if node >> NODE_SHIFT == TAIL {
-        point = tail_point(load_tail(index), max(q, vec4<f32>(0.0)));
+        sample = tail_sample(load_tail(index), max(q, vec4<f32>(0.0)));
     } else {
-        point.jet = bicubic(index, q.xy);
-        point.normal = unit_normal(point.jet.du, point.jet.dv);
-        point.jet.position += face.origin;
+        sample.jet = bicubic(index, q.xy);
+        sample.normal = unit_normal(sample.jet.du, sample.jet.dv);
+        sample.jet.position += face.origin;
     }
-    point.jet = rescaled(point.jet, scale);
-    return point;
+    sample.jet = rescaled(sample.jet, scale);
+    return sample;
 }
