@@ -37,7 +37,6 @@ const LIBRARIES: &[&str] = &[
 
 impl Entry {
     /// Every one.
-    #[cfg(test)]
     pub(crate) const ALL: [Entry; 5] =
         [Entry::Parameter, Entry::Position, Entry::Colour, Entry::Fused, Entry::Evaluate];
 

@@ -9,26 +9,16 @@ use ogee::{Derivatives, Location, Samples, SurfaceJet, Vec3};
 use crate::View;
 use crate::colour::{Colour, decode, mix};
 use crate::pattern::line;
-use crate::raster::Fragment;
 use crate::render::bounding_box;
 
 /// Hairs along a curve across a square.
 const HAIRS: usize = 24;
 
-/// Draws combs over a picture. What lies behind the surface is left out.
-pub(crate) fn draw(
-    surface: &dyn Surface,
-    view: &View,
-    scale: f64,
-    shown: &[Fragment],
-    colours: &mut [Colour],
-) {
+/// Draws combs over a picture, hairs `scale` times their curvature long. What lies behind the surface, whose depth along the view
+/// each pixel has, is left out.
+pub fn draw(surface: &dyn Surface, view: &View, scale: f64, depths: &[f64], colours: &mut [Colour]) {
     let [lower, upper] = bounding_box(surface);
     let diagonal = upper.distance(lower);
-    let mut depths = vec![f64::INFINITY; colours.len()];
-    for fragment in shown {
-        depths[fragment.pixel as usize] = fragment.depth;
-    }
     let mut canvas = Canvas { view, depths, colours, slack: 4e-3 * diagonal };
     let (hair, tip) = ([40, 90, 160].map(linear), [190, 40, 30].map(linear));
     for square in surface.layout().squares() {
@@ -82,7 +72,7 @@ fn hairs(surface: &dyn Surface, square: &Square, along: usize, across: f64, scal
 /// A picture that lines are drawn into.
 struct Canvas<'a> {
     view: &'a View,
-    depths: Vec<f64>,
+    depths: &'a [f64],
     colours: &'a mut [Colour],
     /// Lines this far behind the surface are still seen: their roots lie on it.
     slack: f64,

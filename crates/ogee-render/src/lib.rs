@@ -18,7 +18,7 @@
 
 mod camera;
 pub mod colour;
-mod comb;
+pub mod comb;
 mod image;
 pub mod pattern;
 mod polygon;
@@ -32,5 +32,5 @@ pub use camera::{Camera, Projection, View};
 pub use image::{Image, ImageError, Light};
 pub use polygon::Polygon;
 pub use raster::Fragment;
-pub use render::{DISPLACEMENT, MOST_PIXELS, Picture, RenderError, Stages, bounding_box, render};
+pub use render::{DISPLACEMENT, MOST_PIXELS, Picture, RenderError, Stages, bounding_box, check, limit, polygon, render};
 pub use style::{Pattern, Quantity, Sampling, Scene, Style, default_light};

@@ -149,7 +149,8 @@ pub fn render(surface: &dyn Surface, scene: &Scene) -> Result<Picture, RenderErr
     let looked: Vec<Looked> = shown.par_chunks(CHUNK).map(|chunk| painter.look(chunk)).collect();
     seconds.position = start.elapsed().as_secs_f64();
     let start = Instant::now();
-    picture.limit = painter.limit(&looked);
+    let values = looked.iter().flat_map(|looked| &looked.looks).filter_map(|look| look.value);
+    picture.limit = limit(&scene.style, values);
     let is_missed = looked.iter().all(|looked| looked.hits == 0);
     if is_missed
         && matches!(scene.style, Style::Reflection { .. } | Style::Highlight { .. } | Style::Error { .. })
@@ -162,15 +163,22 @@ pub fn render(surface: &dyn Surface, scene: &Scene) -> Result<Picture, RenderErr
         }
     }
     if let Style::Combs { scale } = scene.style {
-        comb::draw(surface, &view, scale, &shown, &mut picture.colours);
+        let mut depths = vec![f64::INFINITY; pixels];
+        for fragment in &shown {
+            depths[fragment.pixel as usize] = fragment.depth;
+        }
+        comb::draw(surface, &view, scale, &depths, &mut picture.colours);
     }
     seconds.colour = start.elapsed().as_secs_f64();
     picture.seconds = seconds;
     Ok(picture)
 }
 
-/// What can be known before the first point.
-fn check(surface: &dyn Surface, scene: &Scene) -> Result<View, RenderError> {
+/// What can be known before the first point: the camera in pixels.
+///
+/// # Errors
+/// If the picture would show nothing.
+pub fn check(surface: &dyn Surface, scene: &Scene) -> Result<View, RenderError> {
     let [width, height] = scene.size;
     if width == 0 || height == 0 {
         return Err(RenderError::EmptySize { width, height });
@@ -220,7 +228,11 @@ fn is_inside(surface: &dyn Surface, eye: Vec3) -> bool {
     angle.abs() > 2.0 * std::f64::consts::PI
 }
 
-fn polygon(surface: &dyn Surface, scene: &Scene, view: &View) -> Result<Polygon, RenderError> {
+/// The mesh that says what each pixel of a scene shows.
+///
+/// # Errors
+/// If it was asked to be finer than memory is meant for.
+pub fn polygon(surface: &dyn Surface, scene: &Scene, view: &View) -> Result<Polygon, RenderError> {
     let level = match (&scene.style, scene.sampling) {
         (Style::Error { level, .. }, _) => *level,
         (_, Sampling::Parameters(level) | Sampling::Polygon(level)) => level,
@@ -376,25 +388,6 @@ impl Painter<'_> {
         }
     }
 
-    /// Where the colours of a map end.
-    fn limit(&self, looked: &[Looked]) -> Option<f64> {
-        match self.scene.style {
-            Style::Curvature { limit: Some(limit), .. } => Some(limit),
-            Style::Error { .. } => Some(DISPLACEMENT),
-            Style::Curvature { quantity, limit: None } => {
-                let looks = looked.iter().flat_map(|looked| &looked.looks);
-                let mut sizes: Vec<f64> = looks.filter_map(|look| look.value).map(f64::abs).collect();
-                if quantity == Quantity::GaussSign {
-                    return sizes.into_iter().reduce(f64::max);
-                }
-                sizes.sort_unstable_by(f64::total_cmp);
-                let last = sizes.len().checked_sub(1)?;
-                Some(sizes[(0.95 * last as f64) as usize])
-            }
-            _ => None,
-        }
-    }
-
     fn colour(&self, look: &Look, limit: Option<f64>) -> Colour {
         let Look { point, pixel, square, at, value } = look;
         let view = &self.view;
@@ -449,6 +442,22 @@ pub(crate) fn polygon_point(polygon: &Polygon, fragment: &Fragment) -> Point {
         normal,
         turns: (length > 0.0).then(|| [scale * turn(nu), scale * turn(nv)]),
         curvature: None,
+    }
+}
+
+/// Where the colours of a map end; `values` is what its pixels show.
+pub fn limit(style: &Style, values: impl Iterator<Item = f64>) -> Option<f64> {
+    match style {
+        Style::Curvature { limit: Some(limit), .. } => Some(*limit),
+        Style::Error { .. } => Some(DISPLACEMENT),
+        Style::Curvature { quantity: Quantity::GaussSign, limit: None } => values.map(f64::abs).reduce(f64::max),
+        Style::Curvature { limit: None, .. } => {
+            let mut sizes: Vec<f64> = values.map(f64::abs).collect();
+            sizes.sort_unstable_by(f64::total_cmp);
+            let last = sizes.len().checked_sub(1)?;
+            Some(sizes[(0.95 * last as f64) as usize])
+        }
+        _ => None,
     }
 }
 

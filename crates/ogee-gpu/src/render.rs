@@ -1,0 +1,407 @@
+//! `Renderer`: a surface on the device and a scene become a picture.
+
+use std::sync::OnceLock;
+use std::time::Instant;
+
+use ogee::{Location, Vec3};
+use ogee_render::{Picture, RenderError, Sampling, Scene, Stages, Style, View, comb};
+
+use crate::device::Device;
+use crate::grids::Grids;
+use crate::layout::{NO_SURFACE, NO_VALUE, Picture as Uniform, TEXTURE_WIDTH, Vertex, flag};
+use crate::read::Texels;
+use crate::shaders::Entry;
+use crate::targets::{DEPTH, TARGET, Target, depth};
+use crate::upload::{Data, GpuSurface, bind, texture_type};
+use crate::{GpuError, scene, upload};
+
+/// A pass over all pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pass {
+    /// Which square and parameters each pixel shows.
+    Parameter,
+    /// The point of the surface there.
+    Position,
+    /// Its colour.
+    Colour,
+    /// All three at once, at the point that the middle of the pixel shows.
+    Fused,
+}
+
+impl Pass {
+    fn entry(self) -> Entry {
+        match self {
+            Pass::Parameter => Entry::Parameter,
+            Pass::Position => Entry::Position,
+            Pass::Colour => Entry::Colour,
+            Pass::Fused => Entry::Fused,
+        }
+    }
+}
+
+/// Makes pictures on a device. Shaders are compiled when they are first needed, and kept.
+#[derive(Debug)]
+pub struct Renderer<'d> {
+    device: &'d Device,
+    /// Of the scene, the surface, and what passes hand on.
+    layouts: [wgpu::BindGroupLayout; 3],
+    pipelines: [OnceLock<wgpu::RenderPipeline>; Entry::ALL.len()],
+    /// Bound where a pass has no use for a texture.
+    blank: Blank,
+}
+
+#[derive(Debug)]
+struct Blank {
+    float: wgpu::TextureView,
+    whole: wgpu::TextureView,
+}
+
+impl<'d> Renderer<'d> {
+    /// A renderer on a device.
+    ///
+    /// # Errors
+    /// If the device fails.
+    pub fn new(device: &'d Device) -> Result<Renderer<'d>, GpuError> {
+        let texel = [0.0; 4];
+        let blank = |is_float| Data { name: "nothing", bytes: bytemuck::bytes_of(&texel), is_float }.texture(device);
+        let blank = Blank { float: blank(true)?, whole: blank(false)? };
+        let layouts = [scene_layout(device), upload::layout(device), input_layout(device)];
+        Ok(Renderer { device, layouts, pipelines: Default::default(), blank })
+    }
+
+    /// Makes a picture: the same as [`ogee_render::render`], in single precision.
+    ///
+    /// Pixels of [`Sampling::Parameters`] are made in the three passes of the paper, others in one. Of the seconds, `ids` is for the
+    /// polygon, `position` for the passes, `colour` for what comes after.
+    ///
+    /// # Errors
+    /// If it would show nothing, or nothing of what was asked for, or the device fails.
+    pub fn render(&self, surface: &GpuSurface<'_>, scene: &Scene) -> Result<Picture, GpuError> {
+        let start = Instant::now();
+        let prepared = self.prepare(surface, scene)?;
+        let ids = start.elapsed().as_secs_f64();
+        let start = Instant::now();
+        let known = ogee_render::limit(&scene.style, std::iter::empty());
+        let mut texels = prepared.draw(known)?;
+        let unit = scene::unit(&scene.style, &surface.frame);
+        let values = |texels: &Texels| -> Vec<f64> {
+            texels.values().filter(|&bits| bits != NO_SURFACE && bits != NO_VALUE).map(|bits| unit * value(bits)).collect()
+        };
+        let mut limit = known;
+        if matches!(scene.style, Style::Curvature { limit: None, .. }) {
+            limit = ogee_render::limit(&scene.style, values(&texels).into_iter());
+            texels = prepared.draw(limit)?;
+        }
+        let position = start.elapsed().as_secs_f64();
+        let start = Instant::now();
+        let fragments = texels.values().filter(|&bits| bits != NO_SURFACE).count();
+        if fragments == 0 {
+            return Err(RenderError::EmptyView.into());
+        }
+        let is_lit =
+            matches!(scene.style, Style::Reflection { .. } | Style::Highlight { .. } | Style::Error { .. });
+        if is_lit && values(&texels).is_empty() {
+            return Err(RenderError::LightMissed.into());
+        }
+        let mut colours: Vec<_> = texels.colours().collect();
+        if let Style::Combs { scale } = scene.style {
+            let depth = |bits: u32| if bits == NO_SURFACE { f64::INFINITY } else { unit * value(bits) };
+            let depths: Vec<f64> = texels.values().map(depth).collect();
+            comb::draw(surface.view, &prepared.view, scale, &depths, &mut colours);
+        }
+        let seconds = Stages { ids, position, colour: start.elapsed().as_secs_f64() };
+        let level = prepared.cells.trailing_zeros();
+        Ok(Picture { size: scene.size, colours, fragments, level, limit, seconds })
+    }
+
+    /// Everything that passes of a picture need.
+    ///
+    /// # Errors
+    /// If the picture would show nothing, or is larger than the device takes.
+    pub fn prepare<'a>(
+        &'a self,
+        surface: &'a GpuSurface<'a>,
+        scene: &'a Scene,
+    ) -> Result<Prepared<'a>, GpuError> {
+        let view = ogee_render::check(surface.view, scene)?;
+        let polygon = ogee_render::polygon(surface.view, scene, &view)?;
+        let device = self.device;
+        let grids = Grids::new(device, &polygon, &surface.frame)?;
+        let target = || Target::new(device, scene.size);
+        let (parameters, positions, colours) = (target()?, target()?, target()?);
+        let texels = scene::light_texels(&scene.style);
+        let light = if texels.is_empty() {
+            self.blank.float.clone()
+        } else {
+            Data { name: "light", bytes: bytemuck::cast_slice(&texels), is_float: true }.texture(device)?
+        };
+        let blank = &self.blank;
+        let [points, normals] = match &grids.textures {
+            Some([points, normals]) => [points, normals],
+            None => [&blank.float; 2],
+        };
+        let inputs = |parameters: &wgpu::TextureView, positions: &wgpu::TextureView| {
+            let views = [points, normals, parameters, positions];
+            bind(device, &self.layouts[2], views.into_iter().map(wgpu::BindingResource::TextureView))
+        };
+        let inputs = [
+            inputs(&blank.whole, &blank.whole),
+            inputs(&parameters.view, &blank.whole),
+            inputs(&parameters.view, &positions.view),
+        ];
+        let depth = depth(device, scene.size);
+        let uniform = uniform(device);
+        let bindings = bind(
+            device,
+            &self.layouts[0],
+            [uniform.as_entire_binding(), wgpu::BindingResource::TextureView(&light)].into_iter(),
+        );
+        device.check()?;
+        Ok(Prepared {
+            renderer: self,
+            surface,
+            scene,
+            view,
+            cells: polygon.cells,
+            grids,
+            uniform,
+            bindings,
+            inputs,
+            targets: [parameters, positions, colours],
+            depth,
+        })
+    }
+
+    /// Positions and normals of the surface at listed places, in single precision.
+    ///
+    /// # Errors
+    /// If there are more than the device takes, or it fails.
+    pub fn evaluate(
+        &self,
+        surface: &GpuSurface<'_>,
+        places: &[Location],
+    ) -> Result<Vec<(Vec3, Vec3)>, GpuError> {
+        let device = self.device;
+        let packed: Vec<[u32; 4]> = places.iter().map(|&place| pack(place)).collect();
+        let list = Data { name: "places", bytes: bytemuck::cast_slice(&packed), is_float: false };
+        let size = [TEXTURE_WIDTH, (places.len() as u32).div_ceil(TEXTURE_WIDTH).max(1)];
+        let list = list.texture(device)?;
+        let blank = &self.blank;
+        let uniform = uniform(device);
+        let scene = bind(
+            device,
+            &self.layouts[0],
+            [uniform.as_entire_binding(), wgpu::BindingResource::TextureView(&blank.float)].into_iter(),
+        );
+        let inputs = [&blank.float, &blank.float, &list, &blank.whole];
+        let inputs = bind(device, &self.layouts[2], inputs.into_iter().map(wgpu::BindingResource::TextureView));
+        let targets = [Target::new(device, size)?, Target::new(device, size)?];
+        self.draw(Entry::Evaluate, [&scene, &surface.bindings, &inputs], &[&targets[0], &targets[1]], None);
+        let [positions, normals] = targets.each_ref().map(|target| target.read(device));
+        let (positions, normals) = (positions?, normals?);
+        let points = positions.colours().zip(normals.colours()).take(places.len());
+        Ok(points
+            .map(|(position, normal)| (surface.frame.point_back(position), Vec3::from(normal.map(f64::from))))
+            .collect())
+    }
+
+    fn pipeline(&self, entry: Entry) -> &wgpu::RenderPipeline {
+        self.pipelines[entry as usize].get_or_init(|| pipeline(self.device, &self.layouts, entry))
+    }
+
+    /// Draws grids, or one triangle over all.
+    fn draw(
+        &self,
+        entry: Entry,
+        groups: [&wgpu::BindGroup; 3],
+        targets: &[&Target],
+        grids: Option<(&Grids, &wgpu::TextureView)>,
+    ) {
+        let mut encoder = self.device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let attachments: Vec<_> = targets.iter().map(|target| Some(target.attachment(entry))).collect();
+        let depth = grids.map(|(_, depth)| wgpu::RenderPassDepthStencilAttachment {
+            view: depth,
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+            stencil_ops: None,
+        });
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: None,
+            color_attachments: &attachments,
+            depth_stencil_attachment: depth,
+            timestamp_writes: None,
+            occlusion_query_set: None,
+            multiview_mask: None,
+        });
+        pass.set_pipeline(self.pipeline(entry));
+        for (number, group) in (0..).zip(groups) {
+            pass.set_bind_group(number, group, &[]);
+        }
+        match grids {
+            None => pass.draw(0..3, 0..1),
+            Some((grids, _)) => {
+                pass.set_index_buffer(grids.indices.slice(..), wgpu::IndexFormat::Uint32);
+                for (corners, count) in &grids.buffers {
+                    pass.set_vertex_buffer(0, corners.slice(..));
+                    pass.draw_indexed(0..*count, 0, 0..1);
+                }
+            }
+        }
+        drop(pass);
+        self.device.queue.submit([encoder.finish()]);
+    }
+}
+
+/// A place as shaders read it: of each parameter and its rest the smaller, rounded once.
+fn pack(place: Location) -> [u32; 4] {
+    let [(u, is_far_u), (v, is_far_v)] = place.parameters().map(|x| (x.min(1.0 - x) as f32, x > 0.5));
+    let flags = flag::COVERED
+        | if is_far_u { flag::FAR_S } else { 0 }
+        | if is_far_v { flag::FAR_T } else { 0 };
+    [u.to_bits(), v.to_bits(), place.parametric_face() as u32, flags]
+}
+
+fn value(bits: u32) -> f64 {
+    f64::from(f32::from_bits(bits))
+}
+
+/// A scene on the device: its passes can be run one by one.
+#[derive(Debug)]
+pub struct Prepared<'a> {
+    renderer: &'a Renderer<'a>,
+    surface: &'a GpuSurface<'a>,
+    scene: &'a Scene,
+    view: View,
+    cells: u32,
+    grids: Grids,
+    uniform: wgpu::Buffer,
+    bindings: wgpu::BindGroup,
+    /// For passes that draw the polygon, for positions, for colours.
+    inputs: [wgpu::BindGroup; 3],
+    /// Parameters, positions, colours.
+    targets: [Target; 3],
+    depth: wgpu::TextureView,
+}
+
+impl Prepared<'_> {
+    /// Runs a pass; what it reads has to be there. [`Device::finish`] waits for it.
+    pub fn run(&self, pass: Pass) {
+        let (inputs, target) = match pass {
+            Pass::Parameter => (&self.inputs[0], &self.targets[0]),
+            Pass::Position => (&self.inputs[1], &self.targets[1]),
+            Pass::Colour => (&self.inputs[2], &self.targets[2]),
+            Pass::Fused => (&self.inputs[0], &self.targets[2]),
+        };
+        let entry = pass.entry();
+        let groups = [&self.bindings, &self.surface.bindings, inputs];
+        let grids = entry.is_raster().then_some((&self.grids, &self.depth));
+        self.renderer.draw(entry, groups, &[target], grids);
+    }
+
+    /// Tells shaders where the colours of a map end; all passes want it once.
+    pub fn set_limit(&self, limit: Option<f64>) {
+        let picture = scene::picture(self.scene, &self.view, &self.surface.frame, self.cells, limit);
+        self.renderer.device.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&picture));
+    }
+
+    /// All passes.
+    fn draw(&self, limit: Option<f64>) -> Result<Texels, GpuError> {
+        self.set_limit(limit);
+        let is_error = matches!(self.scene.style, Style::Error { .. });
+        if matches!(self.scene.sampling, Sampling::Parameters(_)) && !is_error {
+            [Pass::Parameter, Pass::Position, Pass::Colour].into_iter().for_each(|pass| self.run(pass));
+        } else {
+            self.run(Pass::Fused);
+        }
+        self.targets[2].read(self.renderer.device)
+    }
+}
+
+/// Room for what shaders are told of a scene.
+fn uniform(device: &Device) -> wgpu::Buffer {
+    device.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("picture"),
+        size: size_of::<Uniform>() as u64,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
+fn entry_of(binding: u32, visibility: wgpu::ShaderStages, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None }
+}
+
+fn scene_layout(device: &Device) -> wgpu::BindGroupLayout {
+    let uniform = wgpu::BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Uniform,
+        has_dynamic_offset: false,
+        min_binding_size: None,
+    };
+    device.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("scene"),
+        entries: &[
+            entry_of(0, wgpu::ShaderStages::VERTEX_FRAGMENT, uniform),
+            entry_of(1, wgpu::ShaderStages::FRAGMENT, texture_type(true)),
+        ],
+    })
+}
+
+fn input_layout(device: &Device) -> wgpu::BindGroupLayout {
+    let entries = [true, true, false, false];
+    let entries: Vec<_> = (0..)
+        .zip(entries)
+        .map(|(binding, is_float)| entry_of(binding, wgpu::ShaderStages::FRAGMENT, texture_type(is_float)))
+        .collect();
+    device.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("inputs"),
+        entries: &entries,
+    })
+}
+
+fn pipeline(device: &Device, layouts: &[wgpu::BindGroupLayout; 3], entry: Entry) -> wgpu::RenderPipeline {
+    let Device { device, storage, part, .. } = device;
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some("ogee"),
+        source: wgpu::ShaderSource::Wgsl(entry.text(*storage, *part).into()),
+    });
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: None,
+        bind_group_layouts: &layouts.each_ref().map(Some),
+        immediate_size: 0,
+    });
+    let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32];
+    let corners = wgpu::VertexBufferLayout {
+        array_stride: size_of::<Vertex>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &attributes,
+    };
+    let buffers = [Some(corners)];
+    let targets = vec![Some(wgpu::ColorTargetState::from(TARGET)); entry.targets()];
+    let is_raster = entry.is_raster();
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("ogee"),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("vertex"),
+            compilation_options: Default::default(),
+            buffers: if is_raster { &buffers } else { &[] },
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: is_raster.then(|| wgpu::DepthStencilState {
+            format: DEPTH,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Greater),
+            stencil: Default::default(),
+            bias: Default::default(),
+        }),
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some("fragment"),
+            compilation_options: Default::default(),
+            targets: &targets,
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
