@@ -1,4 +1,4 @@
-//! Reflection lines on a torus with studs, made on the graphics processor: writes stripes.png.
+//! Reflection lines on a rounded cube, made on the graphics processor: writes stripes.png.
 
 use ogee::quality::LimitView;
 use ogee::{Level, LimitSurface, PatchTable, shapes};
@@ -6,7 +6,7 @@ use ogee_gpu::{Device, DeviceOptions, GpuSurface, Renderer};
 use ogee_render::{Pattern, Scene, Style, bounding_box, default_light};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let mesh = shapes::studded_torus(24, 12, 4);
+    let mesh = shapes::cube();
     let level = Level::new(&mesh)?;
     let table = PatchTable::new(&level);
     let surface = LimitSurface::new(&table, &mesh.points);
@@ -17,7 +17,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let on_device = GpuSurface::new(&device, &view)?;
 
     let bounds = bounding_box(&view);
-    let period = bounds[1].distance(bounds[0]) / 20.0;
+    let period = bounds[1].distance(bounds[0]) / 10.0;
     let pattern = Pattern::Lines { period, width: 0.3, phase: 0.0 };
     let style = Style::Reflection { light: default_light(bounds), pattern };
     let scene = Scene { style, ..Scene::of(&view, [700, 700]) };

@@ -67,13 +67,18 @@ impl Device {
         let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
         descriptor.backends = options.backends;
         let instance = wgpu::Instance::new(descriptor);
-        let adapters = pollster::block_on(instance.enumerate_adapters(options.backends));
+        let of = |backends| pollster::block_on(instance.enumerate_adapters(backends));
+        let mut adapters = of(options.backends - Backends::GL);
         let wanted = options.name.as_deref().unwrap_or_default().to_lowercase();
         let is_wanted = |adapter: &&wgpu::Adapter| {
             let storage = options.storage.unwrap_or_else(|| best_storage(adapter));
             adapter.get_info().name.to_lowercase().contains(&wanted)
                 && (storage == Storage::Textures || best_storage(adapter) == Storage::Buffers)
         };
+        // OpenGL reaches the same devices by a longer way, and complains where there is no display.
+        if !adapters.iter().any(|adapter| is_wanted(&adapter)) {
+            adapters.extend(of(options.backends & Backends::GL));
+        }
         let Some(adapter) = adapters.iter().filter(is_wanted).min_by_key(|adapter| rank(adapter)) else {
             return Err(no_adapter(options, &adapters));
         };
@@ -155,16 +160,14 @@ fn best_storage(adapter: &wgpu::Adapter) -> Storage {
 }
 
 /// The best is least.
-fn rank(adapter: &wgpu::Adapter) -> (u32, u32) {
-    let info = adapter.get_info();
-    let kind = match info.device_type {
+fn rank(adapter: &wgpu::Adapter) -> u32 {
+    match adapter.get_info().device_type {
         DeviceType::DiscreteGpu => 0,
         DeviceType::IntegratedGpu => 1,
         DeviceType::VirtualGpu => 2,
         DeviceType::Other => 3,
         DeviceType::Cpu => 4,
-    };
-    (kind, u32::from(info.backend == wgpu::Backend::Gl))
+    }
 }
 
 /// How many points a binding holds.

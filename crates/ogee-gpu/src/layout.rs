@@ -47,7 +47,7 @@ pub(crate) const NO_VALUE: u32 = 0x7fc0_0000;
 /// The value of pixels that show no surface.
 pub(crate) const NO_SURFACE: u32 = 0xffff_ffff;
 
-/// Numbers of styles, patterns and quantities in shaders.
+/// Numbers of styles, patterns and so on in shaders.
 pub(crate) mod code {
     pub(crate) const SHADED: u32 = 0;
     pub(crate) const WIREFRAME: u32 = 1;
@@ -114,6 +114,30 @@ const CONSTANTS: &[(&str, u32)] = &[
     ("GREATEST", code::GREATEST),
     ("GAUSS_SIGN", code::GAUSS_SIGN),
 ];
+
+/// What is shown: known when a shader is compiled, so that it has no more in it than it needs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(crate) struct Shown {
+    pub(crate) style: u32,
+    pub(crate) pattern: u32,
+    /// Which ray meets the light plane.
+    pub(crate) ray: u32,
+    /// Whether points are of the surface or of the polygon.
+    pub(crate) points: u32,
+}
+
+impl Shown {
+    /// Names and values of the shader's constants.
+    pub(crate) fn constants(self) -> [(&'static str, f64); 4] {
+        let Shown { style, pattern, ray, points } = self;
+        [("STYLE", style), ("PATTERN", pattern), ("RAY", ray), ("POINTS", points)].map(|(name, x)| (name, f64::from(x)))
+    }
+
+    /// Their declarations.
+    fn declaration() -> String {
+        Shown::default().constants().map(|(name, _)| format!("override {name}: u32;\n")).concat()
+    }
+}
 
 /// A field of a struct: its name, its type in WGSL, where it begins and its size, in bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -251,14 +275,14 @@ shared! {
 
     /// What is on a light plane: `ogee_render::Pattern`.
     struct Pattern {
-        kind: u32,
+        /// Width and height of an image.
+        size: [u32; 2],
         period: f32,
         width: f32,
         phase: f32,
         radius: f32,
         half: f32,
-        /// Width and height of an image.
-        size: [u32; 2],
+        unused: f32,
     }
 
     /// Everything that decides on a picture, except the surface.
@@ -270,11 +294,6 @@ shared! {
         direction: [f32; 3],
         /// Degrees of a pair of isophotes; pairs of zebra stripes.
         step: f32,
-        style: u32,
-        /// Whether points are of the surface or of the polygon.
-        points: u32,
-        /// Which ray meets the plane.
-        ray: u32,
         quantity: u32,
         /// Where colours of a map end.
         limit: f32,
@@ -282,7 +301,6 @@ shared! {
         newton: u32,
         /// Cells along a side of the polygon's grids.
         cells: u32,
-        unused: u32,
     }
 
     /// A corner of the polygon.
@@ -309,7 +327,7 @@ pub(crate) fn prelude(part: u32) -> String {
     ] {
         text += &declaration;
     }
-    text + &colours() + &unpack::<Face>() + &unpack::<Tail>() + &unpack::<Square>()
+    text + &Shown::declaration() + &colours() + &unpack::<Face>() + &unpack::<Tail>() + &unpack::<Square>()
 }
 
 /// The palette and the scales of maps.

@@ -1,6 +1,7 @@
 //! `Renderer`: a surface on the device and a scene become a picture.
 
-use std::sync::OnceLock;
+use std::collections::HashMap;
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 use ogee::{Location, Vec3};
@@ -8,7 +9,7 @@ use ogee_render::{Picture, RenderError, Sampling, Scene, Stages, Style, View, co
 
 use crate::device::Device;
 use crate::grids::Grids;
-use crate::layout::{NO_SURFACE, NO_VALUE, Picture as Uniform, TEXTURE_WIDTH, Vertex, flag};
+use crate::layout::{NO_SURFACE, NO_VALUE, Picture as Uniform, Shown, TEXTURE_WIDTH, Vertex, flag};
 use crate::read::Texels;
 use crate::shaders::Entry;
 use crate::targets::{DEPTH, TARGET, Target, depth};
@@ -45,7 +46,7 @@ pub struct Renderer<'d> {
     device: &'d Device,
     /// Of the scene, the surface, and what passes hand on.
     layouts: [wgpu::BindGroupLayout; 3],
-    pipelines: [OnceLock<wgpu::RenderPipeline>; Entry::ALL.len()],
+    pipelines: Mutex<HashMap<(Entry, Shown), wgpu::RenderPipeline>>,
     /// Bound where a pass has no use for a texture.
     blank: Blank,
 }
@@ -196,7 +197,7 @@ impl<'d> Renderer<'d> {
         let inputs = [&blank.float, &blank.float, &list, &blank.whole];
         let inputs = bind(device, &self.layouts[2], inputs.into_iter().map(wgpu::BindingResource::TextureView));
         let targets = [Target::new(device, size)?, Target::new(device, size)?];
-        self.draw(Entry::Evaluate, [&scene, &surface.bindings, &inputs], &[&targets[0], &targets[1]], None);
+        self.draw((Entry::Evaluate, Shown::default()), [&scene, &surface.bindings, &inputs], &[&targets[0], &targets[1]], None);
         let [positions, normals] = targets.each_ref().map(|target| target.read(device));
         let (positions, normals) = (positions?, normals?);
         let points = positions.colours().zip(normals.colours()).take(places.len());
@@ -205,14 +206,18 @@ impl<'d> Renderer<'d> {
             .collect())
     }
 
-    fn pipeline(&self, entry: Entry) -> &wgpu::RenderPipeline {
-        self.pipelines[entry as usize].get_or_init(|| pipeline(self.device, &self.layouts, entry))
+    fn pipeline(&self, entry: Entry, shown: Shown) -> wgpu::RenderPipeline {
+        // Passes that only look for points are the same for all styles.
+        let shown = if entry.is_coloured() { shown } else { Shown::default() };
+        let mut pipelines = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
+        let made = pipelines.entry((entry, shown));
+        made.or_insert_with(|| pipeline(self.device, &self.layouts, entry, shown)).clone()
     }
 
     /// Draws grids, or one triangle over all.
     fn draw(
         &self,
-        entry: Entry,
+        (entry, shown): (Entry, Shown),
         groups: [&wgpu::BindGroup; 3],
         targets: &[&Target],
         grids: Option<(&Grids, &wgpu::TextureView)>,
@@ -232,7 +237,7 @@ impl<'d> Renderer<'d> {
             occlusion_query_set: None,
             multiview_mask: None,
         });
-        pass.set_pipeline(self.pipeline(entry));
+        pass.set_pipeline(&self.pipeline(entry, shown));
         for (number, group) in (0..).zip(groups) {
             pass.set_bind_group(number, group, &[]);
         }
@@ -294,7 +299,7 @@ impl Prepared<'_> {
         let entry = pass.entry();
         let groups = [&self.bindings, &self.surface.bindings, inputs];
         let grids = entry.is_raster().then_some((&self.grids, &self.depth));
-        self.renderer.draw(entry, groups, &[target], grids);
+        self.renderer.draw((entry, scene::shown(self.scene)), groups, &[target], grids);
     }
 
     /// Tells shaders where the colours of a map end; all passes want it once.
@@ -306,8 +311,7 @@ impl Prepared<'_> {
     /// All passes.
     fn draw(&self, limit: Option<f64>) -> Result<Texels, GpuError> {
         self.set_limit(limit);
-        let is_error = matches!(self.scene.style, Style::Error { .. });
-        if matches!(self.scene.sampling, Sampling::Parameters(_)) && !is_error {
+        if matches!(self.scene.sampling, Sampling::Parameters(_)) && !scene::is_error(self.scene) {
             [Pass::Parameter, Pass::Position, Pass::Colour].into_iter().for_each(|pass| self.run(pass));
         } else {
             self.run(Pass::Fused);
@@ -357,7 +361,7 @@ fn input_layout(device: &Device) -> wgpu::BindGroupLayout {
     })
 }
 
-fn pipeline(device: &Device, layouts: &[wgpu::BindGroupLayout; 3], entry: Entry) -> wgpu::RenderPipeline {
+fn pipeline(device: &Device, layouts: &[wgpu::BindGroupLayout; 3], entry: Entry, shown: Shown) -> wgpu::RenderPipeline {
     let Device { device, storage, part, .. } = device;
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("ogee"),
@@ -377,13 +381,16 @@ fn pipeline(device: &Device, layouts: &[wgpu::BindGroupLayout; 3], entry: Entry)
     let buffers = [Some(corners)];
     let targets = vec![Some(wgpu::ColorTargetState::from(TARGET)); entry.targets()];
     let is_raster = entry.is_raster();
+    let constants = shown.constants();
+    let compilation_options =
+        wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("ogee"),
         layout: Some(&layout),
         vertex: wgpu::VertexState {
             module: &module,
             entry_point: Some("vertex"),
-            compilation_options: Default::default(),
+            compilation_options: compilation_options.clone(),
             buffers: if is_raster { &buffers } else { &[] },
         },
         primitive: wgpu::PrimitiveState::default(),
@@ -398,7 +405,7 @@ fn pipeline(device: &Device, layouts: &[wgpu::BindGroupLayout; 3], entry: Entry)
         fragment: Some(wgpu::FragmentState {
             module: &module,
             entry_point: Some("fragment"),
-            compilation_options: Default::default(),
+            compilation_options,
             targets: &targets,
         }),
         multiview_mask: None,

@@ -1,50 +1,65 @@
 //! A scene as shaders are told of it.
 
-use ogee::quality::PlaneLight;
 use ogee_render::{Pattern, Quantity, Sampling, Scene, Style, View};
 
 use crate::flat::narrow;
 use crate::frame::Frame;
-use crate::layout::{self, NEWTON_STEPS, Picture, code};
+use crate::layout::{self, NEWTON_STEPS, Picture, Shown, code};
+
+/// What a scene shows.
+pub(crate) fn shown(scene: &Scene) -> Shown {
+    let lit = |ray: u32, pattern: &Pattern| {
+        let pattern = match pattern {
+            Pattern::Lines { .. } => code::LINES,
+            Pattern::Lattice { .. } => code::LATTICE,
+            Pattern::Circles { .. } => code::CIRCLES,
+            Pattern::Image { .. } => code::IMAGE,
+        };
+        Shown { style: code::LIT, pattern, ray, ..Shown::default() }
+    };
+    let only = |style: u32| Shown { style, ..Shown::default() };
+    let shown = match &scene.style {
+        Style::Shaded => only(code::SHADED),
+        Style::Wireframe => only(code::WIREFRAME),
+        Style::Reflection { pattern, .. } => lit(code::REFLECTED, pattern),
+        Style::Highlight { pattern, .. } => lit(code::NORMAL, pattern),
+        Style::Isophote { .. } => only(code::ISOPHOTE),
+        Style::Zebra { .. } => only(code::ZEBRA),
+        Style::Curvature { .. } => only(code::CURVATURE),
+        Style::Error { .. } => only(code::ERROR),
+        Style::Combs { .. } => only(code::COMBS),
+    };
+    let is_polygon = matches!(scene.sampling, Sampling::Polygon(_)) && !is_error(scene);
+    Shown { points: if is_polygon { code::POLYGON } else { code::SURFACE }, ..shown }
+}
+
+/// Errors compare a polygon with exact points, whatever else is asked for.
+pub(crate) fn is_error(scene: &Scene) -> bool {
+    matches!(scene.style, Style::Error { .. })
+}
 
 /// A scene, for a polygon of so many cells and a map that ends at `limit`.
 pub(crate) fn picture(scene: &Scene, view: &View, frame: &Frame, cells: u32, limit: Option<f64>) -> Picture {
-    let mut picture = Picture { view: frame.view(view), cells, ..Picture::default() };
-    (picture.points, picture.newton) = match scene.sampling {
-        _ if matches!(scene.style, Style::Error { .. }) => (code::SURFACE, NEWTON_STEPS),
-        Sampling::Exact => (code::SURFACE, NEWTON_STEPS),
-        Sampling::Parameters(_) => (code::SURFACE, 0),
-        Sampling::Polygon(_) => (code::POLYGON, 0),
-    };
-    let mut lit = |ray: u32, light: &PlaneLight, on_it: &Pattern| {
-        (picture.style, picture.ray) = (code::LIT, ray);
-        picture.light = frame.light(light);
-        picture.pattern = pattern(on_it, frame);
-    };
+    let is_exact = scene.sampling == Sampling::Exact || is_error(scene);
+    let newton = if is_exact { NEWTON_STEPS } else { 0 };
+    let mut picture = Picture { view: frame.view(view), cells, newton, ..Picture::default() };
     match &scene.style {
-        Style::Shaded => picture.style = code::SHADED,
-        Style::Wireframe => picture.style = code::WIREFRAME,
-        Style::Reflection { light, pattern } => lit(code::REFLECTED, light, pattern),
-        Style::Highlight { light, pattern } => lit(code::NORMAL, light, pattern),
-        Style::Isophote { light, step } => {
-            picture.style = code::ISOPHOTE;
-            (picture.direction, picture.step) = (narrow(*light), *step as f32);
+        Style::Shaded | Style::Wireframe | Style::Combs { .. } => {}
+        Style::Reflection { light, pattern } | Style::Highlight { light, pattern } => {
+            picture.light = frame.light(light);
+            picture.pattern = self::pattern(pattern, frame);
         }
-        Style::Zebra { axis, count } => {
-            picture.style = code::ZEBRA;
-            (picture.direction, picture.step) = (narrow(*axis), *count as f32);
+        Style::Isophote { light: direction, step } | Style::Zebra { axis: direction, count: step } => {
+            (picture.direction, picture.step) = (narrow(*direction), *step as f32);
         }
         Style::Curvature { quantity, .. } => {
-            picture.style = code::CURVATURE;
             picture.quantity = number(*quantity);
             picture.limit = limit.map_or(0.0, |limit| (limit / unit(&scene.style, frame)) as f32);
         }
         Style::Error { light, .. } => {
-            picture.style = code::ERROR;
             picture.light = frame.light(light);
             picture.limit = ogee_render::DISPLACEMENT as f32;
         }
-        Style::Combs { .. } => picture.style = code::COMBS,
     }
     picture
 }
@@ -65,20 +80,18 @@ fn pattern(pattern: &Pattern, frame: &Frame) -> layout::Pattern {
     let base = layout::Pattern { period: 1.0, ..layout::Pattern::default() };
     match pattern {
         Pattern::Lines { period, width, phase } => layout::Pattern {
-            kind: code::LINES,
             period: length(*period),
             width: *width as f32,
             phase: *phase as f32,
             ..base
         },
         Pattern::Lattice { period, width } => {
-            layout::Pattern { kind: code::LATTICE, period: length(*period), width: *width as f32, ..base }
+            layout::Pattern { period: length(*period), width: *width as f32, ..base }
         }
         Pattern::Circles { period, radius } => {
-            layout::Pattern { kind: code::CIRCLES, period: length(*period), radius: *radius as f32, ..base }
+            layout::Pattern { period: length(*period), radius: *radius as f32, ..base }
         }
         Pattern::Image { image, half } => layout::Pattern {
-            kind: code::IMAGE,
             half: length(*half),
             size: image.levels.first().map_or([1; 2], |(size, _)| *size),
             ..base

@@ -4,7 +4,7 @@ use crate::device::Storage;
 use crate::layout::prelude;
 
 /// What a shader is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Entry {
     /// Which square and parameters each pixel shows.
     Parameter,
@@ -37,12 +37,18 @@ const LIBRARIES: &[&str] = &[
 
 impl Entry {
     /// Every one.
+    #[cfg(test)]
     pub(crate) const ALL: [Entry; 5] =
         [Entry::Parameter, Entry::Position, Entry::Colour, Entry::Fused, Entry::Evaluate];
 
     /// True if it draws the polygon, false if one triangle over all pixels.
     pub(crate) fn is_raster(self) -> bool {
         matches!(self, Entry::Parameter | Entry::Fused)
+    }
+
+    /// True if it writes colours.
+    pub(crate) fn is_coloured(self) -> bool {
+        matches!(self, Entry::Colour | Entry::Fused)
     }
 
     /// Into how many textures it writes.

@@ -38,9 +38,9 @@ impl Target {
     /// Cleared to what a pixel without surface holds.
     pub(crate) fn attachment(&self, entry: Entry) -> wgpu::RenderPassColorAttachment<'_> {
         let [r, g, b] = palette::BACKGROUND.map(|x| f64::from(x.to_bits()));
-        let empty = match entry {
-            Entry::Colour | Entry::Fused => wgpu::Color { r, g, b, a: f64::from(NO_SURFACE) },
-            Entry::Parameter | Entry::Position | Entry::Evaluate => wgpu::Color::TRANSPARENT,
+        let empty = match entry.is_coloured() {
+            true => wgpu::Color { r, g, b, a: f64::from(NO_SURFACE) },
+            false => wgpu::Color::TRANSPARENT,
         };
         wgpu::RenderPassColorAttachment {
             view: &self.view,

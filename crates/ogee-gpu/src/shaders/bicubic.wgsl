@@ -48,9 +48,3 @@ fn bicubic(net: u32, at: vec2<f32>) -> Jet {
     }
     return jet;
 }
-
-// The jet by parameters that run `scale` times as fast.
-fn rescaled(jet: Jet, scale: f32) -> Jet {
-    let square = scale * scale;
-    return Jet(jet.position, scale * jet.du, scale * jet.dv, square * jet.duu, square * jet.duv, square * jet.dvv);
-}

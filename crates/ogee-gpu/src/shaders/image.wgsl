@@ -1,6 +1,6 @@
 // A picture on a light plane, at every scale: twins of `ogee_render::Light`.
 
-struct Found {
+struct LightColour {
     exists: bool,
     colour: vec3<f32>,
 }
@@ -31,10 +31,10 @@ fn level_at(size: vec2<u32>, level: u32, at: vec2<f32>) -> vec3<f32> {
 }
 
 // The colour at a place of the plane, averaged over a spread.
-fn image_at(size: vec2<u32>, at: vec2<f32>, half: f32, spread: f32) -> Found {
+fn image_at(size: vec2<u32>, at: vec2<f32>, half: f32, spread: f32) -> LightColour {
     let tall = half * f32(size.y) / f32(size.x);
     if !(abs(at.x) <= half && abs(at.y) <= tall) {
-        return Found();
+        return LightColour();
     }
     let st = vec2<f32>((at.x / half + 1.0) / 2.0, (1.0 - at.y / tall) / 2.0);
     let texels = spread / (2.0 * half) * f32(size.x);
@@ -43,5 +43,5 @@ fn image_at(size: vec2<u32>, at: vec2<f32>, half: f32, spread: f32) -> Found {
     let level = min(log2(max(texels, 1.0)), f32(last));
     let fine = u32(level);
     let coarse = min(fine + 1u, last);
-    return Found(true, mix(level_at(size, fine, st), level_at(size, coarse, st), level - f32(fine)));
+    return LightColour(true, mix(level_at(size, fine, st), level_at(size, coarse, st), level - f32(fine)));
 }

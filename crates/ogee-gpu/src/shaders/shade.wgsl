@@ -39,7 +39,7 @@ fn lit(view: View, light: PlaneLight, ray: u32, pattern: Pattern, at: Point, pix
     let place = hit.at / pattern.period;
     var colour = LIGHT;
     var bright = 0.0;
-    switch pattern.kind {
+    switch PATTERN {
         case LINES: {
             bright = stripe(place.x + pattern.phase, wide.x / pattern.period, pattern.width);
         }
@@ -77,10 +77,11 @@ fn zebra(view: View, axis: vec3<f32>, count: f32, at: Point, pixel: Footprint) -
     var bright = 0.5;
     if at.has_turns {
         let ray = reflected_jet(view, at);
-        let sine = clamp(dot(ray.along, axis), -1.0, 1.0);
-        let slope = inverseSqrt(max(1.0 - sine * sine, 1e-9));
+        let sine = dot(ray.along, axis);
+        let cosine = length(cross(ray.along, axis));
+        let slope = 1.0 / max(cosine, 3e-5);
         let wide = spread(pixel, slope * dot(ray.du, axis), slope * dot(ray.dv, axis));
-        bright = stripe(count / PI * asin(sine), count / PI * wide, 0.5);
+        bright = stripe(count / PI * atan2(sine, cosine), count / PI * wide, 0.5);
     }
     return bands(view, at.position, at.normal, bright);
 }

@@ -25,7 +25,7 @@ fn shade(picture: Picture, place: Place, st: vec4<f32>, at: Point) -> Shade {
     let pixel = footprint(view, at.position, at.tangents);
     var value = Value(true, 0.0);
     var colour: vec3<f32>;
-    switch picture.style {
+    switch STYLE {
         case SHADED: {
             colour = body(view, at.position, at.normal);
         }
@@ -34,8 +34,8 @@ fn shade(picture: Picture, place: Place, st: vec4<f32>, at: Point) -> Shade {
             colour = wire(view, st, square.size, square.sides, at, pixel);
         }
         case LIT: {
-            value.exists = hit_jet(picture.light, picture.ray, view, at).exists;
-            colour = lit(view, picture.light, picture.ray, picture.pattern, at, pixel);
+            value.exists = hit_jet(picture.light, RAY, view, at).exists;
+            colour = lit(view, picture.light, RAY, picture.pattern, at, pixel);
         }
         case ISOPHOTE: {
             colour = isophote(view, picture.direction, picture.step, at, pixel);

@@ -42,8 +42,23 @@ fn unit_normal(du: vec3<f32>, dv: vec3<f32>) -> vec3<f32> {
     return select(vec3<f32>(0.0), normal * inverseSqrt(square), square > 0.0);
 }
 
+// Where in which net a place lies, and what becomes of the patch there.
+struct Patch {
+    net: u32,
+    at: vec2<f32>,
+    // What positions are relative to.
+    origin: vec3<f32>,
+    // By how much the patch is shrunk.
+    shrunk: f32,
+    // How often parameters were doubled.
+    doublings: i32,
+    // The normal where the place is an extraordinary vertex.
+    normal: vec3<f32>,
+    is_vertex: bool,
+}
+
 // A chain: the exponent of the larger parameter says which step, the other bits which tile.
-fn tail_sample(tail: Tail, q: vec4<f32>) -> Sample {
+fn tail_patch(tail: Tail, q: vec4<f32>) -> Patch {
     let last = i32(tail.steps + STEPS_BEYOND);
     var at = to_corner(tail.corner, q);
     var larger = max(at.x, at.y);
@@ -55,32 +70,28 @@ fn tail_sample(tail: Tail, q: vec4<f32>) -> Sample {
     let doublings = max(1, 127 - i32((bitcast<u32>(larger) >> 23u) & 255u));
     // Below the last step the surface is its own limit shape, shrunk about the corner.
     let beyond = max(0, doublings - i32(tail.steps));
-    let scale = power_of_two(doublings);
-    let grown = scale * at;
+    let grown = power_of_two(doublings) * at;
     let right = grown.x >= 1.0;
     let above = grown.y >= 1.0;
     let tile = select(select(0u, 2u, above), 1u, right && above);
     let inner = grown - select(vec2<f32>(0.0), vec2<f32>(1.0), vec2<bool>(right, above));
-    let net = tail.first + 3u * u32(doublings - beyond - 1) + tile;
-    let jet = bicubic(net, from_corner(tail.corner, inner));
-    let shrunk = pow(tail.eigenvalue, f32(beyond));
-    var sample: Sample;
-    sample.jet = rescaled(Jet(jet.position, shrunk * jet.du, shrunk * jet.dv, shrunk * jet.duu, shrunk * jet.duv, shrunk * jet.dvv), scale);
-    sample.jet.position = tail.limit + select(shrunk * jet.position, vec3<f32>(0.0), is_vertex);
-    sample.normal = unit_normal(jet.du, jet.dv);
-    if is_vertex {
-        sample.normal = tail.normal;
-    }
-    sample.is_vertex = is_vertex;
-    return sample;
+    var found: Patch;
+    found.net = tail.first + 3u * u32(doublings - beyond - 1) + tile;
+    found.at = from_corner(tail.corner, inner);
+    found.origin = tail.limit;
+    found.shrunk = pow(tail.eigenvalue, f32(beyond));
+    found.doublings = doublings;
+    found.normal = tail.normal;
+    found.is_vertex = is_vertex;
+    return found;
 }
 
-// The surface at parameters of a face.
-fn surface_at(number: u32, parameters: vec4<f32>) -> Sample {
+// Down the tree of a face.
+fn find(number: u32, parameters: vec4<f32>) -> Patch {
     let face = load_face(number);
     var q = parameters;
     var node = face.root;
-    var scale = 1.0;
+    var depth = 0;
     while node >> NODE_SHIFT == SPLIT {
         let children = load_node(node & ((1u << NODE_SHIFT) - 1u));
         let right = q.x >= 0.5;
@@ -89,17 +100,34 @@ fn surface_at(number: u32, parameters: vec4<f32>) -> Sample {
         let low = vec4<f32>(2.0 * q.xy, 1.0 - 2.0 * q.xy);
         let high = vec4<f32>(1.0 - 2.0 * q.zw, 2.0 * q.zw);
         q = select(low, high, vec4<bool>(right, above, right, above));
-        scale *= 2.0;
+        depth++;
     }
     let index = node & ((1u << NODE_SHIFT) - 1u);
-    var sample: Sample;
+    var found = Patch(index, q.xy, face.origin, 1.0, 0, vec3<f32>(0.0), false);
     if node >> NODE_SHIFT == TAIL {
-        sample = tail_sample(load_tail(index), max(q, vec4<f32>(0.0)));
-    } else {
-        sample.jet = bicubic(index, q.xy);
-        sample.normal = unit_normal(sample.jet.du, sample.jet.dv);
-        sample.jet.position += face.origin;
+        found = tail_patch(load_tail(index), max(q, vec4<f32>(0.0)));
     }
-    sample.jet = rescaled(sample.jet, scale);
+    found.doublings += depth;
+    return found;
+}
+
+// The surface at parameters of a face.
+fn surface_at(number: u32, parameters: vec4<f32>) -> Sample {
+    let found = find(number, parameters);
+    let jet = bicubic(found.net, found.at);
+    let first = found.shrunk * power_of_two(found.doublings);
+    let second = first * power_of_two(found.doublings);
+    let position = select(found.shrunk * jet.position, vec3<f32>(0.0), found.is_vertex);
+    var sample: Sample;
+    sample.jet = Jet(
+        found.origin + position,
+        first * jet.du,
+        first * jet.dv,
+        second * jet.duu,
+        second * jet.duv,
+        second * jet.dvv,
+    );
+    sample.normal = select(unit_normal(jet.du, jet.dv), found.normal, found.is_vertex);
+    sample.is_vertex = found.is_vertex;
     return sample;
 }

@@ -1,6 +1,6 @@
 //! What tests of pictures share: a device, if there is one, and cages.
 
-#![allow(dead_code, reason = "each test takes what it needs")]
+#![allow(dead_code, unreachable_pub, reason = "each claim uses a part of it")]
 
 use ogee::quality::LimitView;
 use ogee::{ControlMesh, Level, LimitSurface, PatchTable};
