@@ -54,12 +54,25 @@ impl CageArguments {
     /// Reads the cage and applies the rules that were asked for.
     pub(crate) fn read(&self) -> Result<Cage, Failure> {
         let start = Instant::now();
+        let (name, format, bytes) = self.load()?;
+        let cage = self.parse(name, format, &bytes)?;
+        Ok(Cage { seconds: start.elapsed().as_secs_f64(), ..cage })
+    }
+
+    /// The name, the format and the bytes of the file.
+    pub(crate) fn load(&self) -> Result<(String, CageFormat, Vec<u8>), Failure> {
         if self.is_stdin() && self.input_format.is_none() {
             return Err(Failure::usage("reading from stdin wants --input-format"));
         }
         let format = CageFormat::of(self.input_format, &self.cage).map_err(Failure::usage)?;
         let (name, bytes) = read_bytes(&self.cage)?;
-        let mut file = read_cage(&bytes, format).map_err(|error| Failure::of_reading(&error, &name))?;
+        Ok((name, format, bytes))
+    }
+
+    /// The cage in these bytes, with the rules that were asked for.
+    pub(crate) fn parse(&self, name: String, format: CageFormat, bytes: &[u8]) -> Result<Cage, Failure> {
+        let start = Instant::now();
+        let mut file = read_cage(bytes, format).map_err(|error| Failure::of_reading(&error, &name))?;
         let scheme = &mut file.mesh.scheme;
         scheme.boundary = self.boundary.unwrap_or(scheme.boundary);
         scheme.creasing = self.creasing.unwrap_or(scheme.creasing);

@@ -26,6 +26,7 @@ mod names;
 mod output;
 mod progress;
 mod report;
+mod subject;
 mod system;
 mod timestamp;
 mod view;

@@ -5,7 +5,7 @@ use std::str::FromStr;
 use clap::Args;
 use ogee::Vec3;
 use ogee::quality::PlaneLight;
-use ogee_render::{Camera, default_light};
+use ogee_render::{Camera, THREE_QUARTER, default_light};
 
 use crate::error::Failure;
 
@@ -31,16 +31,14 @@ pub(crate) struct ViewArguments {
 }
 
 impl ViewArguments {
-    /// The camera that shows a surface with these bounds as asked.
-    pub(crate) fn camera(&self, bounds: [Vec3; 2]) -> Result<Camera, Failure> {
-        /// From the right, the front and above.
-        const THREE_QUARTER: Vec3 = Vec3::new(0.55, -0.7, 0.46);
-        let middle = 0.5 * (bounds[0] + bounds[1]);
-        let at = self.target.unwrap_or(middle);
-        let from = self.eye.map_or(THREE_QUARTER, |eye| eye - at);
-        let fitted = Camera::fit_from(from, bounds, self.fov, self.size);
+    /// The camera that shows a surface with these points as asked.
+    pub(crate) fn camera(&self, points: &[Vec3]) -> Result<Camera, Failure> {
+        let fit = |from| Camera::fit_from(from, points, self.fov, self.size);
+        let usual = fit(THREE_QUARTER);
+        let at = self.target.unwrap_or(usual.at);
+        let fitted = self.eye.map_or(usual, |eye| fit(eye - at));
         // A target alone moves the view as it is.
-        let eye = self.eye.unwrap_or(fitted.eye + (at - middle));
+        let eye = self.eye.unwrap_or(usual.eye + (at - usual.at));
         let camera = Camera { eye, at, up: self.up.unwrap_or(fitted.up), ..fitted };
         if eye == at {
             return Err(Failure::usage(format!("--eye and --at are the same point, {}", words(eye))));
@@ -113,6 +111,11 @@ impl LightArguments {
         }
     }
 
+    /// How many lines there are.
+    pub(crate) fn count(&self) -> f64 {
+        self.lines
+    }
+
     /// From one line on the plane to the next.
     pub(crate) fn period(&self, [lower, upper]: [Vec3; 2]) -> f64 {
         let side = self.light_plane.map_or(f64::INFINITY, |plane| plane.side);
@@ -154,7 +157,7 @@ fn vector(text: &str) -> Result<Vec3, String> {
 }
 
 /// A unit vector.
-fn direction(text: &str) -> Result<Vec3, String> {
+pub(crate) fn direction(text: &str) -> Result<Vec3, String> {
     vector(text)?.normalized().ok_or_else(|| "it has no direction".to_owned())
 }
 
@@ -192,21 +195,22 @@ mod tests {
     #[test]
     fn what_is_not_said_follows_from_the_surface() {
         let Both { view, light } = parse("").unwrap();
-        assert_eq!(view.camera(BOUNDS).unwrap(), Camera::fit(BOUNDS, [700, 700]));
+        let fit = |size| Camera::fit_from(THREE_QUARTER, &BOUNDS, 30.0, size);
+        assert_eq!(view.camera(&BOUNDS).unwrap(), fit([700, 700]));
         assert_eq!((light.plane(BOUNDS), light.period(BOUNDS)), (default_light(BOUNDS), 13.0 / 20.0));
         let Both { view, light } = parse("--at 2,7,1.5 --light-plane 5,8 --lines 4 --size 300x200").unwrap();
-        let (camera, fitted) = (view.camera(BOUNDS).unwrap(), Camera::fit(BOUNDS, [300, 200]));
-        assert!((camera.eye - fitted.eye - Vec3::new(0.0, 1.0, 0.0)).length() < 1e-12);
+        let (camera, fitted) = (view.camera(&BOUNDS).unwrap(), fit([300, 200]));
+        assert!((camera.eye - fitted.eye - (camera.at - fitted.at)).length() < 1e-12);
         let plane = light.plane(BOUNDS);
         assert_eq!((plane.centre.z, plane.half, light.period(BOUNDS)), (8.0, [4.0; 2], 2.0));
-        let from_above = parse("--eye 2,6,30").unwrap().view.camera(BOUNDS).unwrap();
+        let from_above = parse("--eye 2,6,30").unwrap().view.camera(&BOUNDS).unwrap();
         assert_eq!(from_above.up, Vec3::new(0.0, 1.0, 0.0));
     }
 
     #[test]
     fn views_of_nothing_are_refused() {
         for options in ["--eye 1,1,1 --at 1,1,1", "--eye 2,6,30 --up 0,0,1"] {
-            assert!(parse(options).unwrap().view.camera(BOUNDS).is_err(), "{options}");
+            assert!(parse(options).unwrap().view.camera(&BOUNDS).is_err(), "{options}");
         }
         let wrong = [
             "--eye 1,2",

@@ -7,6 +7,7 @@ pub(crate) mod eval;
 pub(crate) mod info;
 mod man;
 pub(crate) mod refine;
+pub(crate) mod render;
 
 use std::process::ExitCode;
 
@@ -21,6 +22,7 @@ pub(crate) fn run(command: &Command, console: &Console) -> Result<ExitCode, Fail
         Command::Refine(refine) => refine.run(console),
         Command::Eval(eval) => eval.run(console),
         Command::Convert(convert) => convert.run(console),
+        Command::Render(render) => render.run(console),
         Command::Check(check) => check.run(console),
         Command::Completions(completions) => completions.run(console),
         Command::Man => man::run(console),
