@@ -64,11 +64,7 @@ impl Device {
     /// # Errors
     /// If there is none, or it will not be opened.
     pub fn new(options: &DeviceOptions) -> Result<Device, GpuError> {
-        let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
-        descriptor.backends = options.backends;
-        let instance = wgpu::Instance::new(descriptor);
-        let of = |backends| pollster::block_on(instance.enumerate_adapters(backends));
-        let mut adapters = of(options.backends - Backends::GL);
+        let mut adapters = adapters(options.backends - Backends::GL);
         let wanted = options.name.as_deref().unwrap_or_default().to_lowercase();
         let is_wanted = |adapter: &&wgpu::Adapter| {
             let storage = options.storage.unwrap_or_else(|| best_storage(adapter));
@@ -77,7 +73,7 @@ impl Device {
         };
         // OpenGL reaches the same devices by a longer way, and complains where there is no display.
         if !adapters.iter().any(|adapter| is_wanted(&adapter)) {
-            adapters.extend(of(options.backends & Backends::GL));
+            adapters.extend(self::adapters(options.backends & Backends::GL));
         }
         let Some(adapter) = adapters.iter().filter(is_wanted).min_by_key(|adapter| rank(adapter)) else {
             return Err(no_adapter(options, &adapters));
@@ -150,6 +146,13 @@ impl Device {
 
 fn note(fault: &Mutex<Option<GpuError>>, error: GpuError) {
     fault.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+}
+
+/// All adapters that some interfaces reach.
+fn adapters(backends: Backends) -> Vec<wgpu::Adapter> {
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+    descriptor.backends = backends;
+    pollster::block_on(wgpu::Instance::new(descriptor).enumerate_adapters(backends))
 }
 
 /// Whether shaders of an adapter read buffers.

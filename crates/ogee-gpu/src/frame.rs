@@ -48,7 +48,7 @@ impl Frame {
         let [right, up, forward] = view.axes;
         let middle = -eye.dot(forward);
         // With nearer planes the depth of what is far would be coarse on devices that keep it in [-1, 1].
-        let near = if view.is_parallel { middle - 1.0 } else { (middle - 1.0).max(1e-3) };
+        let near = if view.is_parallel { middle - 1.0 } else { (middle - 1.0).max(1e-5) };
         layout::View {
             eye: narrow(eye),
             scale: if view.is_parallel { view.scale / self.scale } else { view.scale } as f32,

@@ -32,14 +32,17 @@
 //! | `frame` | the model around the origin and of size one |
 //! | `flat`, `upload` | trees as arrays; [`GpuSurface`] |
 //! | `scene`, `grids` | [`ogee_render::Scene`] and [`ogee_render::Polygon`] as shaders read them |
-//! | `render`, `targets`, `read` | [`Renderer`]: passes, what they write, and back |
+//! | `render`, `evaluate` | [`Renderer`]: pictures and passes; points at listed places |
+//! | `pipeline`, `targets`, `read` | shaders bound to data, what they write, and back |
 
 mod device;
 mod error;
+mod evaluate;
 mod flat;
 mod frame;
 mod grids;
 mod layout;
+mod pipeline;
 mod read;
 mod render;
 mod scene;

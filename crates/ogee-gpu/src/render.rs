@@ -4,17 +4,17 @@ use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use ogee::{Location, Vec3};
 use ogee_render::{Picture, RenderError, Sampling, Scene, Stages, Style, View, comb};
 
 use crate::device::Device;
 use crate::grids::Grids;
-use crate::layout::{NO_SURFACE, NO_VALUE, Picture as Uniform, Shown, TEXTURE_WIDTH, Vertex, flag};
+use crate::layout::{NO_SURFACE, NO_VALUE, Shown};
+use crate::pipeline::{layouts, pipeline, uniform};
 use crate::read::Texels;
 use crate::shaders::Entry;
-use crate::targets::{DEPTH, TARGET, Target, depth};
-use crate::upload::{Data, GpuSurface, bind, texture_type};
-use crate::{GpuError, scene, upload};
+use crate::targets::{Target, depth};
+use crate::upload::{Data, GpuSurface, bind};
+use crate::{GpuError, scene};
 
 /// A pass over all pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,18 +43,18 @@ impl Pass {
 /// Makes pictures on a device. Shaders are compiled when they are first needed, and kept.
 #[derive(Debug)]
 pub struct Renderer<'d> {
-    device: &'d Device,
+    pub(crate) device: &'d Device,
     /// Of the scene, the surface, and what passes hand on.
-    layouts: [wgpu::BindGroupLayout; 3],
+    pub(crate) layouts: [wgpu::BindGroupLayout; 3],
     pipelines: Mutex<HashMap<(Entry, Shown), wgpu::RenderPipeline>>,
     /// Bound where a pass has no use for a texture.
-    blank: Blank,
+    pub(crate) blank: Blank,
 }
 
 #[derive(Debug)]
-struct Blank {
-    float: wgpu::TextureView,
-    whole: wgpu::TextureView,
+pub(crate) struct Blank {
+    pub(crate) float: wgpu::TextureView,
+    pub(crate) whole: wgpu::TextureView,
 }
 
 impl<'d> Renderer<'d> {
@@ -66,7 +66,7 @@ impl<'d> Renderer<'d> {
         let texel = [0.0; 4];
         let blank = |is_float| Data { name: "nothing", bytes: bytemuck::bytes_of(&texel), is_float }.texture(device);
         let blank = Blank { float: blank(true)?, whole: blank(false)? };
-        let layouts = [scene_layout(device), upload::layout(device), input_layout(device)];
+        let layouts = layouts(device);
         Ok(Renderer { device, layouts, pipelines: Default::default(), blank })
     }
 
@@ -173,39 +173,6 @@ impl<'d> Renderer<'d> {
         })
     }
 
-    /// Positions and normals of the surface at listed places, in single precision.
-    ///
-    /// # Errors
-    /// If there are more than the device takes, or it fails.
-    pub fn evaluate(
-        &self,
-        surface: &GpuSurface<'_>,
-        places: &[Location],
-    ) -> Result<Vec<(Vec3, Vec3)>, GpuError> {
-        let device = self.device;
-        let packed: Vec<[u32; 4]> = places.iter().map(|&place| pack(place)).collect();
-        let list = Data { name: "places", bytes: bytemuck::cast_slice(&packed), is_float: false };
-        let size = [TEXTURE_WIDTH, (places.len() as u32).div_ceil(TEXTURE_WIDTH).max(1)];
-        let list = list.texture(device)?;
-        let blank = &self.blank;
-        let uniform = uniform(device);
-        let scene = bind(
-            device,
-            &self.layouts[0],
-            [uniform.as_entire_binding(), wgpu::BindingResource::TextureView(&blank.float)].into_iter(),
-        );
-        let inputs = [&blank.float, &blank.float, &list, &blank.whole];
-        let inputs = bind(device, &self.layouts[2], inputs.into_iter().map(wgpu::BindingResource::TextureView));
-        let targets = [Target::new(device, size)?, Target::new(device, size)?];
-        self.draw((Entry::Evaluate, Shown::default()), [&scene, &surface.bindings, &inputs], &[&targets[0], &targets[1]], None);
-        let [positions, normals] = targets.each_ref().map(|target| target.read(device));
-        let (positions, normals) = (positions?, normals?);
-        let points = positions.colours().zip(normals.colours()).take(places.len());
-        Ok(points
-            .map(|(position, normal)| (surface.frame.point_back(position), Vec3::from(normal.map(f64::from))))
-            .collect())
-    }
-
     fn pipeline(&self, entry: Entry, shown: Shown) -> wgpu::RenderPipeline {
         // Passes that only look for points are the same for all styles.
         let shown = if entry.is_coloured() { shown } else { Shown::default() };
@@ -215,7 +182,7 @@ impl<'d> Renderer<'d> {
     }
 
     /// Draws grids, or one triangle over all.
-    fn draw(
+    pub(crate) fn draw(
         &self,
         (entry, shown): (Entry, Shown),
         groups: [&wgpu::BindGroup; 3],
@@ -254,15 +221,6 @@ impl<'d> Renderer<'d> {
         drop(pass);
         self.device.queue.submit([encoder.finish()]);
     }
-}
-
-/// A place as shaders read it: of each parameter and its rest the smaller, rounded once.
-fn pack(place: Location) -> [u32; 4] {
-    let [(u, is_far_u), (v, is_far_v)] = place.parameters().map(|x| (x.min(1.0 - x) as f32, x > 0.5));
-    let flags = flag::COVERED
-        | if is_far_u { flag::FAR_S } else { 0 }
-        | if is_far_v { flag::FAR_T } else { 0 };
-    [u.to_bits(), v.to_bits(), place.parametric_face() as u32, flags]
 }
 
 fn value(bits: u32) -> f64 {
@@ -318,97 +276,4 @@ impl Prepared<'_> {
         }
         self.targets[2].read(self.renderer.device)
     }
-}
-
-/// Room for what shaders are told of a scene.
-fn uniform(device: &Device) -> wgpu::Buffer {
-    device.device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("picture"),
-        size: size_of::<Uniform>() as u64,
-        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
-    })
-}
-
-fn entry_of(binding: u32, visibility: wgpu::ShaderStages, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntry {
-    wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None }
-}
-
-fn scene_layout(device: &Device) -> wgpu::BindGroupLayout {
-    let uniform = wgpu::BindingType::Buffer {
-        ty: wgpu::BufferBindingType::Uniform,
-        has_dynamic_offset: false,
-        min_binding_size: None,
-    };
-    device.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("scene"),
-        entries: &[
-            entry_of(0, wgpu::ShaderStages::VERTEX_FRAGMENT, uniform),
-            entry_of(1, wgpu::ShaderStages::FRAGMENT, texture_type(true)),
-        ],
-    })
-}
-
-fn input_layout(device: &Device) -> wgpu::BindGroupLayout {
-    let entries = [true, true, false, false];
-    let entries: Vec<_> = (0..)
-        .zip(entries)
-        .map(|(binding, is_float)| entry_of(binding, wgpu::ShaderStages::FRAGMENT, texture_type(is_float)))
-        .collect();
-    device.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("inputs"),
-        entries: &entries,
-    })
-}
-
-fn pipeline(device: &Device, layouts: &[wgpu::BindGroupLayout; 3], entry: Entry, shown: Shown) -> wgpu::RenderPipeline {
-    let Device { device, storage, part, .. } = device;
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some("ogee"),
-        source: wgpu::ShaderSource::Wgsl(entry.text(*storage, *part).into()),
-    });
-    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: None,
-        bind_group_layouts: &layouts.each_ref().map(Some),
-        immediate_size: 0,
-    });
-    let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32];
-    let corners = wgpu::VertexBufferLayout {
-        array_stride: size_of::<Vertex>() as u64,
-        step_mode: wgpu::VertexStepMode::Vertex,
-        attributes: &attributes,
-    };
-    let buffers = [Some(corners)];
-    let targets = vec![Some(wgpu::ColorTargetState::from(TARGET)); entry.targets()];
-    let is_raster = entry.is_raster();
-    let constants = shown.constants();
-    let compilation_options =
-        wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("ogee"),
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("vertex"),
-            compilation_options: compilation_options.clone(),
-            buffers: if is_raster { &buffers } else { &[] },
-        },
-        primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: is_raster.then(|| wgpu::DepthStencilState {
-            format: DEPTH,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(wgpu::CompareFunction::Greater),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some("fragment"),
-            compilation_options,
-            targets: &targets,
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
 }

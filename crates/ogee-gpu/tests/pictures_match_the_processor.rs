@@ -86,13 +86,14 @@ fn compare(name: &str, mesh: &ControlMesh, options: &DeviceOptions, others: &[(b
     with_view(mesh, |view, _| {
         let on_device = GpuSurface::new(&device, view).expect("room for the surface");
         let bounds = bounding_box(view);
+        let camera = Scene::of(view, SIZE).camera;
         for ((style_name, style), &other) in styles(bounds).into_iter().zip(others.iter().cycle()) {
             for (is_parallel, sampling) in [(false, Sampling::Exact), other] {
                 let is_map = matches!(style, Style::Curvature { .. });
                 if is_map && matches!(sampling, Sampling::Polygon(_)) {
                     continue;
                 }
-                let camera = if is_parallel { parallel(bounds) } else { Camera::fit(bounds, SIZE) };
+                let camera = if is_parallel { parallel(camera, bounds) } else { camera };
                 let scene = Scene { camera, size: SIZE, style: style.clone(), sampling };
                 let wanted = render(view, &scene).expect("a picture");
                 let found = renderer.render(&on_device, &scene).expect("a picture");
@@ -117,8 +118,7 @@ fn compare(name: &str, mesh: &ControlMesh, options: &DeviceOptions, others: &[(b
     });
 }
 
-fn parallel(bounds: [Vec3; 2]) -> Camera {
-    let camera = Camera::fit(bounds, SIZE);
+fn parallel(camera: Camera, bounds: [Vec3; 2]) -> Camera {
     Camera { projection: Projection::Parallel { height: 0.8 * bounds[1].distance(bounds[0]) }, ..camera }
 }
 

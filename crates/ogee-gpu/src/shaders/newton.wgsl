@@ -11,21 +11,21 @@ struct Found {
 
 // The point of a face that the middle of the pixel shows, as far as the face goes; with no steps that at the parameters.
 fn exact(view: View, face: u32, parameters: vec4<f32>, middle: vec2<f32>, steps: u32) -> Found {
-    var q = parameters;
-    var step = 0u;
-    // The surface is asked for in one place only: compilers copy what is called.
-    loop {
-        let sample = surface_at(face, q);
-        let jet = sample.jet;
+    var found: Found;
+    found.q = parameters;
+    for (var step = 0u; step <= steps; step++) {
+        // The surface is asked for in one place only: compilers copy what is called.
+        found.sample = surface_at(face, found.q);
+        let jet = found.sample.jet;
         let pixel = footprint(view, jet.position, mat2x3<f32>(jet.du, jet.dv));
         let missing = middle - pixel_of(view, to_camera(view, jet.position));
         let move_uv = missing.x * pixel.x + missing.y * pixel.y;
         // What is no number compares as false.
         if step == steps || !(dot(move_uv, move_uv) < 1e30) {
-            return Found(q, sample);
+            break;
         }
         let limited = clamp(move_uv, vec2<f32>(-LONGEST), vec2<f32>(LONGEST));
-        q = clamp(q + vec4<f32>(limited, -limited), vec4<f32>(0.0), vec4<f32>(1.0));
-        step++;
+        found.q = clamp(found.q + vec4<f32>(limited, -limited), vec4<f32>(0.0), vec4<f32>(1.0));
     }
+    return found;
 }
