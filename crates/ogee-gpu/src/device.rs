@@ -71,7 +71,7 @@ impl Device {
             adapter.get_info().name.to_lowercase().contains(&wanted)
                 && (storage == Storage::Textures || best_storage(adapter) == Storage::Buffers)
         };
-        // OpenGL reaches the same devices by a longer way, and complains where there is no display.
+        // OpenGL reaches the same devices by a longer way.
         if !adapters.iter().any(|adapter| is_wanted(&adapter)) {
             adapters.extend(self::adapters(options.backends & Backends::GL));
         }

@@ -19,8 +19,11 @@ pub(crate) const PARTS: usize = 4;
 /// Steps below the last stored that are told from the corner itself; there a step is a hundredth of a pixel at most.
 pub(crate) const STEPS_BEYOND: u32 = 8;
 
-/// Newton steps towards the middle of the pixel: one leaves a thousandth of a pixel, two what numbers can hold.
-pub(crate) const NEWTON_STEPS: u32 = 2;
+/// Newton steps towards the middle of the pixel, at most: one or two are enough unless they lead to another face.
+pub(crate) const NEWTON_STEPS: u32 = 8;
+
+/// Stands for what is across a side where there is nothing.
+pub(crate) const BORDER: u32 = u32::MAX;
 
 /// What a node is, in its top two bits.
 pub(crate) mod node {
@@ -82,7 +85,7 @@ const CONSTANTS: &[(&str, u32)] = &[
     ("TEXTURE_WIDTH", TEXTURE_WIDTH),
     ("NET_POINTS", NET_POINTS),
     ("STEPS_BEYOND", STEPS_BEYOND),
-    ("NEWTON_STEPS", NEWTON_STEPS),
+    ("BORDER", BORDER),
     ("LEAF", node::LEAF),
     ("SPLIT", node::SPLIT),
     ("TAIL", node::TAIL),
@@ -245,6 +248,8 @@ shared! {
         /// A bit for each side that is an edge.
         sides: u32,
         unused: [u32; 2],
+        /// For each side four times the square across it and the side of that, or [`BORDER`].
+        across: [u32; 4],
     }
 
     /// A camera in pixels: `ogee_render::View`.
@@ -297,7 +302,7 @@ shared! {
         quantity: u32,
         /// Where colours of a map end.
         limit: f32,
-        /// Newton steps towards the middle of the pixel.
+        /// Newton steps towards the middle of the pixel, at most.
         newton: u32,
         /// Cells along a side of the polygon's grids.
         cells: u32,

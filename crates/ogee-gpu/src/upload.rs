@@ -1,11 +1,11 @@
 //! `GpuSurface`: a surface on the device.
 
-use ogee::quality::{LimitView, Square as QualitySquare, Surface};
+use ogee::quality::{Layout, LimitView, Side, Surface};
 
 use crate::device::{Device, Storage};
 use crate::flat::Flat;
 use crate::frame::Frame;
-use crate::layout::{NET_POINTS, PARTS, Square, TEXTURE_WIDTH};
+use crate::layout::{BORDER, NET_POINTS, PARTS, Square, TEXTURE_WIDTH};
 use crate::GpuError;
 
 /// The limit surface of a cage on a device.
@@ -25,7 +25,7 @@ impl<'a> GpuSurface<'a> {
     pub fn new(device: &Device, view: &'a LimitView<'a>) -> Result<GpuSurface<'a>, GpuError> {
         let frame = Frame::new(ogee_render::bounding_box(view));
         let flat = Flat::new(view.surface(), &frame);
-        let squares: Vec<Square> = view.layout().squares().iter().map(square).collect();
+        let squares: Vec<Square> = (0..view.layout().squares().len() as u32).map(|number| square(view.layout(), number)).collect();
         let part = device.part as usize;
         if flat.points.len() > PARTS * part {
             return Err(GpuError::TooLarge {
@@ -67,14 +67,20 @@ impl<'a> GpuSurface<'a> {
     }
 }
 
-fn square(square: &QualitySquare) -> Square {
+fn square(layout: &Layout, number: u32) -> Square {
+    let square = &layout.squares()[number as usize];
     let sides = (0..4).filter(|&side| square.edges[side]).map(|side| 1 << side).sum();
+    let across = [0, 1, 2, 3].map(|side| {
+        let across = layout.across(Side { square: number, side });
+        across.map_or(BORDER, |Side { square, side }| 4 * square + side)
+    });
     Square {
         corner: square.corner.parameters().map(|x| x as f32),
         size: square.size.map(|x| x as f32),
         face: square.corner.parametric_face() as u32,
         sides,
         unused: [0; 2],
+        across,
     }
 }
 

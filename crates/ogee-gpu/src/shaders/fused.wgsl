@@ -5,13 +5,8 @@
 fn fragment(in: Raster) -> @location(0) vec4<u32> {
     let place = Place(in.square, in.st);
     if POINTS == POLYGON {
-        return pack_shade(shade(picture, place, place.st, polygon_point(place.square, place.st.xy)));
+        return pack_shade(shade(picture, place, place, polygon_point(place.square, place.st.xy)));
     }
-    let square = load_square(place.square);
-    let near = parameters_of(square, place.st);
-    let found = exact(picture.view, square.face, near, in.position.xy, picture.newton);
-    // Back to the square, for its edges.
-    let corner = vec4<f32>(square.corner, 1.0 - square.corner - square.size);
-    let st = (found.q - corner) / square.size.xyxy;
-    return pack_shade(shade(picture, place, st, surface_point(found.sample)));
+    let found = exact(picture.view, place, in.position.xy, picture.newton);
+    return pack_shade(shade(picture, place, found.place, surface_point(found.sample)));
 }

@@ -22,7 +22,7 @@ fn load_tail(i: u32) -> Tail {
 }
 
 fn load_square(i: u32) -> Square {
-    return unpack_square(squares[2u * i], squares[2u * i + 1u]);
+    return unpack_square(squares[3u * i], squares[3u * i + 1u], squares[3u * i + 2u]);
 }
 
 // Four control points, one in each column. A row of a net never lies in two parts.

@@ -24,8 +24,9 @@ fn load_tail(i: u32) -> Tail {
 }
 
 fn load_square(i: u32) -> Square {
-    let a = textureLoad(squares, texel(2u * i), 0);
-    return unpack_square(a, textureLoad(squares, texel(2u * i + 1u), 0));
+    let a = textureLoad(squares, texel(3u * i), 0);
+    let b = textureLoad(squares, texel(3u * i + 1u), 0);
+    return unpack_square(a, b, textureLoad(squares, texel(3u * i + 2u), 0));
 }
 
 // Four points of one texture, from a texel on.

@@ -1,31 +1,72 @@
-// From the parameters of the polygon to those of the pixel: Newton's method on the projection.
+// From the parameters of the polygon to those of the pixel: Newton's method on the projection. Twin of `ogee_render`'s.
 
 // A step longer than this leaves the region in which it can be trusted.
 const LONGEST = 0.15;
 
-// A point of a face and its parameters.
+// Of a pixel: where no more is left, lines are where they belong.
+const DONE = 1e-3;
+
+// A place and the surface there.
 struct Found {
-    q: vec4<f32>,
+    place: Place,
     sample: Sample,
 }
 
-// The point of a face that the middle of the pixel shows, as far as the face goes; with no steps that at the parameters.
-fn exact(view: View, face: u32, parameters: vec4<f32>, middle: vec2<f32>, steps: u32) -> Found {
+// The side that a step from a point on it would leave a square by; 4 if it stays inside.
+fn leaving(st: vec4<f32>, along: vec2<f32>) -> u32 {
+    if st.y <= 0.0 && along.y < 0.0 {
+        return 0u;
+    }
+    if st.z <= 0.0 && along.x > 0.0 {
+        return 1u;
+    }
+    if st.w <= 0.0 && along.y > 0.0 {
+        return 2u;
+    }
+    return select(4u, 3u, st.x <= 0.0 && along.x < 0.0);
+}
+
+// The point at x from the start of a side, counter-clockwise; `rest` is 1 - x.
+fn on_side(side: u32, x: f32, rest: f32) -> vec4<f32> {
+    switch side {
+        case 0u: { return vec4<f32>(x, 0.0, rest, 1.0); }
+        case 1u: { return vec4<f32>(1.0, x, 0.0, rest); }
+        case 2u: { return vec4<f32>(rest, 1.0, x, 0.0); }
+        default: { return vec4<f32>(0.0, rest, 1.0, x); }
+    }
+}
+
+// The point of the surface that the middle of the pixel shows; with no steps that at the place itself. A step goes to the side
+// of a square at most, and the next one from there into the square beyond.
+fn exact(view: View, start: Place, middle: vec2<f32>, steps: u32) -> Found {
     var found: Found;
-    found.q = parameters;
+    found.place = start;
     for (var step = 0u; step <= steps; step++) {
+        let st = found.place.st;
+        let square = load_square(found.place.square);
         // The surface is asked for in one place only: compilers copy what is called.
-        found.sample = surface_at(face, found.q);
+        found.sample = surface_at(square.face, parameters_of(square, st));
         let jet = found.sample.jet;
-        let pixel = footprint(view, jet.position, mat2x3<f32>(jet.du, jet.dv));
+        let pixel = footprint(view, jet.position, mat2x3<f32>(square.size.x * jet.du, square.size.y * jet.dv));
         let missing = middle - pixel_of(view, to_camera(view, jet.position));
-        let move_uv = missing.x * pixel.x + missing.y * pixel.y;
+        let along = clamp(missing.x * pixel.x + missing.y * pixel.y, vec2<f32>(-LONGEST), vec2<f32>(LONGEST));
         // What is no number compares as false.
-        if step == steps || !(dot(move_uv, move_uv) < 1e30) {
+        if step == steps || !(length(missing) > DONE) || !(dot(along, along) >= 0.0) {
             break;
         }
-        let limited = clamp(move_uv, vec2<f32>(-LONGEST), vec2<f32>(LONGEST));
-        found.q = clamp(found.q + vec4<f32>(limited, -limited), vec4<f32>(0.0), vec4<f32>(1.0));
+        let side = leaving(st, along);
+        var beyond = BORDER;
+        if side < 4u {
+            beyond = square.across[side];
+        }
+        if beyond == BORDER {
+            found.place.st = clamp(st + vec4<f32>(along, -along), vec4<f32>(0.0), vec4<f32>(1.0));
+        } else {
+            // What comes first on this side comes last on the other.
+            let ends = array<vec2<f32>, 4>(st.xz, st.yw, st.zx, st.wy);
+            let end = ends[side];
+            found.place = Place(beyond >> 2u, on_side(beyond & 3u, end.y, end.x));
+        }
     }
     return found;
 }

@@ -19,8 +19,8 @@ fn line_error(picture: Picture, place: Place, at: Point, pixel: Footprint) -> Va
     return Value(seen.exists && exact.exists, distance);
 }
 
-// The colour of a point; `place` is where the polygon shows it, `st` the point's own parameters in that square.
-fn shade(picture: Picture, place: Place, st: vec4<f32>, at: Point) -> Shade {
+// The colour of a point; `seen` is where the polygon shows it, `place` where it is.
+fn shade(picture: Picture, seen: Place, place: Place, at: Point) -> Shade {
     let view = picture.view;
     let pixel = footprint(view, at.position, at.tangents);
     var value = Value(true, 0.0);
@@ -31,7 +31,7 @@ fn shade(picture: Picture, place: Place, st: vec4<f32>, at: Point) -> Shade {
         }
         case WIREFRAME: {
             let square = load_square(place.square);
-            colour = wire(view, st, square.size, square.sides, at, pixel);
+            colour = wire(view, place.st, square.size, square.sides, at, pixel);
         }
         case LIT: {
             value.exists = hit_jet(picture.light, RAY, view, at).exists;
@@ -48,7 +48,7 @@ fn shade(picture: Picture, place: Place, st: vec4<f32>, at: Point) -> Shade {
             colour = on_body(view, at.position, at.normal, map(picture.quantity, value, picture.limit));
         }
         case ERROR: {
-            value = line_error(picture, place, at, pixel);
+            value = line_error(picture, seen, at, pixel);
             colour = on_body(view, at.position, at.normal, displacement(value, picture.limit));
         }
         default: {

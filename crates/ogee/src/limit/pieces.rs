@@ -43,8 +43,8 @@ pub struct TailPiece {
 }
 
 impl LimitSurface<'_> {
-    /// What a parametric face is made of. Chains go on until they have shrunk to `least` of the piece, and for as many
-    /// steps as evaluation takes at most.
+    /// What a parametric face is made of. Chains go on until they have shrunk to `least` of the piece, in space and in
+    /// parameters, and for as many steps as evaluation takes at most.
     ///
     /// ```
     /// use ogee::{FacePiece, Level, LimitSurface, PatchTable, shapes};
@@ -85,8 +85,9 @@ impl LimitSurface<'_> {
         let basis = table.basis(tail);
         let mut walk = Walk::default();
         let corner = at_corner(&mut walk, table, points, number, tail);
-        let count = (least.ln() / basis.eigenvalue.ln()).ceil();
-        let count = (count as i32).clamp(1, last_step(basis));
+        let shrinks = basis.eigenvalue.max(0.5);
+        let count = (least.ln() / shrinks.ln()).ceil() as i32;
+        let count = count.clamp(1, last_step(basis));
         let turned = &TURNED[tail.corner as usize];
         let nets = |step| {
             walk.go(table, points, number, tail, step);
@@ -178,7 +179,7 @@ mod tests {
                         let at = Location { root: face as u32, u, v };
                         let SurfacePoint { position, normal, .. } = surface.eval(at);
                         assert_eq!((position, normal), (tail.limit, tail.normal));
-                        assert!(tail.eigenvalue.powi(tail.steps.len() as i32) <= 1e-6);
+                        assert!(tail.eigenvalue.max(0.5).powi(tail.steps.len() as i32) <= 1e-6);
                         2
                     }
                 };
