@@ -103,8 +103,8 @@ pub mod stam;
 mod stencil;
 
 pub use limit::{
-    Closest, ClosestPoints, Derivatives, Flags, LimitJet, LimitSurface, LimitVertex, Samples, SurfacePoint,
-    limit_vertices,
+    Closest, ClosestPoints, Derivatives, Flags, LimitJet, LimitSurface, LimitVertex, Pattern, Samples,
+    SurfacePoint, limit_vertices,
 };
 pub use math::{Curvature, Grid, Interpolate, SurfaceJet, Vec3};
 pub use mesh::{
