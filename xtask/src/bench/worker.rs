@@ -84,9 +84,9 @@ fn resident_bytes() -> Result<f64> {
 fn by_faces(mesh: &ControlMesh, what: Derivatives, side: u32) -> Result<Value> {
     let level = Level::new(mesh)?;
     let centre = |i: u32| (f64::from(i) + 0.5) / f64::from(side);
-    let places: Vec<[f64; 2]> =
-        (0..side).flat_map(|j| (0..side).map(move |i| [centre(i), centre(j)])).collect();
-    let faces = (if threads() == 1 { BLOCK } else { SHARED_BLOCK }) / places.len();
+    let places: Vec<[f64; 2]> = (0..side * side).map(|k| [centre(k % side), centre(k / side)]).collect();
+    let block = if threads() == 1 { BLOCK } else { SHARED_BLOCK };
+    let faces = (block / places.len()).max(1);
     let mut results = Samples::default();
     let mut pass = |take: &mut dyn FnMut(&Samples)| -> Result<[f64; 2]> {
         let start = Instant::now();

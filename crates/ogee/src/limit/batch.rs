@@ -352,6 +352,13 @@ impl Worker<'_> {
         self.run(root, out);
     }
 
+    /// Samples in a leaf of a face that was halved so often.
+    #[inline]
+    pub(super) fn in_leaf(&mut self, net: &[u32; 16], depth: i32, source: impl Source, out: &mut Out<'_>) {
+        self.leaf(net, depth);
+        self.group.evaluate(self.batch.what, source, out);
+    }
+
     /// One sample.
     pub(super) fn lone(&mut self, at: Location, out: &mut Out<'_>) {
         self.items.push(Item { u: at.u, v: at.v, index: 0 });

@@ -20,13 +20,16 @@ pub(super) struct Item {
 /// Samples of one patch.
 pub(super) trait Source {
     /// True if results go to places one after the other.
-    const STRAIGHT: bool;
+    fn is_straight(&self) -> bool;
     fn len(&self) -> usize;
     fn get(&self, i: usize) -> Item;
 }
 
 impl Source for &[Item] {
-    const STRAIGHT: bool = false;
+    #[inline(always)]
+    fn is_straight(&self) -> bool {
+        false
+    }
 
     #[inline(always)]
     fn len(&self) -> usize {
@@ -47,7 +50,10 @@ pub(super) struct Together<'a> {
 }
 
 impl Source for Together<'_> {
-    const STRAIGHT: bool = true;
+    #[inline(always)]
+    fn is_straight(&self) -> bool {
+        true
+    }
 
     #[inline(always)]
     fn len(&self) -> usize {
@@ -58,6 +64,31 @@ impl Source for Together<'_> {
     fn get(&self, i: usize) -> Item {
         let Location { u, v, .. } = self.at[i];
         Item { u, v, index: (self.first + i) as u32 }
+    }
+}
+
+/// Places of a pattern, whose numbers are counted from `first`.
+pub(super) struct Counted<'a> {
+    pub(super) items: &'a [Item],
+    pub(super) first: usize,
+    pub(super) straight: bool,
+}
+
+impl Source for Counted<'_> {
+    #[inline(always)]
+    fn is_straight(&self) -> bool {
+        self.straight
+    }
+
+    #[inline(always)]
+    fn len(&self) -> usize {
+        self.items.len()
+    }
+
+    #[inline(always)]
+    fn get(&self, i: usize) -> Item {
+        let item = self.items[i];
+        Item { index: self.first as u32 + item.index, ..item }
     }
 }
 
@@ -188,7 +219,7 @@ impl<const PARTS: usize, S: Source> simd::Kernel for Run<'_, '_, PARTS, S> {
             let [a, b, c, d] = [item(0), item(1), item(2), item(3)];
             let (u, v) = (V::load(&[a.u, b.u, c.u, d.u]), V::load(&[a.v, b.v, c.v, d.v]));
             let indices = [a.index as usize, b.index as usize, c.index as usize, d.index as usize];
-            let put = Put { indices, count, straight: S::STRAIGHT && count == LANES };
+            let put = Put { indices, count, straight: source.is_straight() && count == LANES };
             group.write::<PARTS, V>(&put, &bicubic::four::<PARTS, V>(&group.net, u, v), out);
         }
     }

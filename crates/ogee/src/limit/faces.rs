@@ -1,8 +1,9 @@
-//! Face after face: the samples of a pattern, by weights that faces of one kind share.
+//! Face after face: the samples of a pattern, by weights that tails of one kind share.
 
 use std::ops::Range;
 
 use super::batch::{Batch, Worker};
+use super::evaluate::Counted;
 use super::out::{LANES, Out, Put};
 use super::pattern::{Pattern, Sheet};
 use super::walk::wide;
@@ -27,6 +28,9 @@ pub(super) fn run(batch: Batch<'_>, pattern: &Pattern<'_>, faces: Range<usize>, 
         );
         return;
     }
+    if pattern.is_empty() {
+        return;
+    }
     let (worker, near, without) = (Worker::new(batch), [[0.0; 4]; MOST_POINTS], Vec::new());
     let mut work = Work { batch, pattern, worker, near, without, out };
     for (number, face) in faces.enumerate() {
@@ -40,7 +44,7 @@ struct Work<'a, 'o> {
     pattern: &'a Pattern<'a>,
     /// For places that have no weights.
     worker: Worker<'a>,
-    /// The points of a piece, relative to one of them.
+    /// The points of a ring, relative to the first of them.
     near: [Wide; MOST_POINTS],
     /// The places of a face that have no weights.
     without: Vec<u32>,
@@ -76,11 +80,10 @@ impl<'a> Work<'a, '_> {
             Piece::Leaf(index) => self.leaf(table.leaf(index), sheet, first),
             Piece::Tail(number) => {
                 let tail = table.tail(number);
-                let weights = sheet.tail(table, tail, self.batch.what);
+                let weights = sheet.weights(table, tail, self.batch.what);
                 self.without.extend_from_slice(&weights.without);
                 if weights.are_there() {
-                    let ring = table.ring(tail);
-                    self.sums(ring, ring[0], weights, sheet, first);
+                    self.sums(table.ring(tail), weights, sheet, first);
                 }
             }
             Piece::Split(index) => {
@@ -91,18 +94,19 @@ impl<'a> Work<'a, '_> {
         }
     }
 
+    /// Sums over sixteen points would take longer than the coefficients of a patch do.
     #[inline]
     fn leaf(&mut self, net: &[u32; 16], sheet: &Sheet, first: usize) {
-        self.sums(net, net[5], sheet.leaf(self.batch.what), sheet, first);
+        let places = Counted { items: &sheet.items, first, straight: sheet.is_whole() };
+        self.worker.in_leaf(net, sheet.depth, places, &mut self.out);
     }
 
-    /// Weighted sums over the points of a piece, relative to one of them.
+    /// Sums over the points of a ring, relative to the first of them.
     #[inline]
-    fn sums(&mut self, sources: &[u32], base: u32, weights: &Weights, sheet: &Sheet, first: usize) {
+    fn sums(&mut self, ring: &[u32], weights: &Weights, sheet: &Sheet, first: usize) {
         let Batch { points, what, .. } = self.batch;
-        let base = points[base as usize];
-        let near = &mut self.near[..sources.len()];
-        let sums = Sums { points, sources, base, near, weights, sheet, first };
+        let near = &mut self.near[..ring.len()];
+        let sums = Sums { points, ring, near, weights, sheet, first };
         let out = &mut self.out;
         match what {
             Derivatives::None => simd::dispatch(Parts::<1> { sums, out }),
@@ -112,11 +116,10 @@ impl<'a> Work<'a, '_> {
     }
 }
 
-/// The points of a piece, and weights for its places.
+/// A ring, and weights for places in its tail.
 struct Sums<'a> {
     points: &'a [Vec3],
-    sources: &'a [u32],
-    base: Vec3,
+    ring: &'a [u32],
     near: &'a mut [Wide],
     weights: &'a Weights,
     sheet: &'a Sheet,
@@ -134,14 +137,15 @@ impl<const COUNT: usize> simd::Kernel for Parts<'_, '_, COUNT> {
 
     #[inline(always)]
     fn run<V: Four>(self) {
-        let Parts { sums: Sums { points, sources, base, near, weights, sheet, first }, out } = self;
+        let Parts { sums: Sums { points, ring, near, weights, sheet, first }, out } = self;
+        let base = points[ring[0] as usize];
         let origin = V::load(&wide(base));
-        for (near, &source) in near.iter_mut().zip(sources) {
+        for (near, &source) in near.iter_mut().zip(ring) {
             *near = V::load(&wide(points[source as usize])).minus(origin).store();
         }
         let base = [V::splat(base.x), V::splat(base.y), V::splat(base.z)];
         for (four, items) in sheet.items.chunks(LANES).enumerate() {
-            let put = Put::new(items, first, sheet.depth == 0);
+            let put = Put::new(items, first, sheet.is_whole());
             put.flags(out.flags, Flags::NONE);
             if COUNT == 1 {
                 let [[x, y, z]] = weighted::<1, V>(weights.of_four(four, 0), near);

@@ -74,7 +74,7 @@ impl<'a> Pattern<'a> {
     }
 }
 
-/// The places on a piece of the parameters of a face, and their weights for each kind of piece. What nobody asks for is not
+/// The places on a piece of the parameters of a face, and their weights for each kind of tail. What nobody asks for is not
 /// made.
 #[derive(Clone, Debug)]
 pub(super) struct Sheet {
@@ -82,7 +82,6 @@ pub(super) struct Sheet {
     pub(super) items: Vec<Item>,
     /// How often the face was halved.
     pub(super) depth: i32,
-    leaf: OnceLock<Weights>,
     /// By kind, and by the corner that is irregular.
     tails: Vec<[OnceLock<Weights>; 4]>,
     quarters: OnceLock<Box<[Sheet; 4]>>,
@@ -91,23 +90,23 @@ pub(super) struct Sheet {
 impl Sheet {
     fn new(items: Vec<Item>, depth: i32, table: &PatchTable) -> Sheet {
         let tails = vec![Default::default(); table.kind_count()];
-        Sheet { items, depth, leaf: OnceLock::new(), tails, quarters: OnceLock::new() }
+        Sheet { items, depth, tails, quarters: OnceLock::new() }
     }
 
-    /// For a leaf.
-    #[inline]
-    pub(super) fn leaf(&self, what: Derivatives) -> &Weights {
-        self.leaf.get_or_init(|| Weights::of_leaf(&self.items, self.depth, what))
+    /// True if it has all places of a face, in their order.
+    #[inline(always)]
+    pub(super) fn is_whole(&self) -> bool {
+        self.depth == 0
     }
 
-    /// For a tail.
+    /// The weights for a tail.
     #[inline]
-    pub(super) fn tail(&self, table: &PatchTable, tail: Tail, what: Derivatives) -> &Weights {
+    pub(super) fn weights(&self, table: &PatchTable, tail: Tail, what: Derivatives) -> &Weights {
         self.tails[tail.kind as usize][tail.corner as usize]
-            .get_or_init(|| Weights::of_tail(table.basis(tail), tail.corner, &self.items, self.depth, what))
+            .get_or_init(|| Weights::new(table.basis(tail), tail.corner, &self.items, self.depth, what))
     }
 
-    /// For the four pieces of a split.
+    /// The places on the four pieces of a split.
     pub(super) fn quarters(&self, table: &PatchTable) -> &[Sheet; 4] {
         self.quarters.get_or_init(|| {
             let quarter = |corner| {

@@ -1,8 +1,8 @@
-//! Weights of places over the points that decide a piece: what all pieces of one kind share.
+//! Weights of places over the ring of a tail: what all tails of one kind share.
 //!
-//! Position and derivatives at a place are sums over the sixteen points of a leaf, or over the ring of a tail, with weights
-//! that depend on the place and the kind of piece alone. They are what evaluation gives where one of the points is 1 and the
-//! others are 0; four such cases go side by side, as coordinates.
+//! Position and derivatives at a place are sums over the points of the ring, with weights that depend on the place and the
+//! kind of tail alone. They are what evaluation gives where one of the points is 1 and the others are 0; four such cases
+//! go side by side, as coordinates.
 
 use super::Derivatives;
 use super::bicubic::{self, Net};
@@ -12,14 +12,14 @@ use super::place::{in_chain, power_of_two};
 use crate::math::simd::{Four, Plain};
 use crate::patch::{ChainBasis, TURNED, Wide};
 
-/// The most points of a piece that has weights: rings of valence 28. With more, sums are no quicker than steps.
+/// The most points of a ring that has weights: those of valence 28. With more, sums are no quicker than steps.
 pub(super) const MOST_POINTS: usize = 64;
 
 /// Steps down a chain to which there are weights. Deeper, a sum loses digits that a walk keeps, whose ring stays relative to
 /// a point near it.
 const STEPS: usize = 4;
 
-/// Weights of some places over the points of a piece.
+/// Weights of some places in a tail over the points of its ring.
 #[derive(Clone, Debug)]
 pub(super) struct Weights {
     /// How many points.
@@ -59,21 +59,8 @@ struct Spot {
 }
 
 impl Weights {
-    /// Over the net of a leaf. Its parameters are those of a face that was halved `depth` times.
-    pub(super) fn of_leaf(items: &[Item], depth: i32, what: Derivatives) -> Weights {
-        let spots = items.iter().map(|&Item { u, v, .. }| Some(Spot { step: 0, tile: 0, u, v }));
-        let (mut weights, spots) = Weights::room(16, items, spots.collect(), what);
-        for group in 0..16 / LANES {
-            let net = bicubic::coefficients_of(&std::array::from_fn(|point| unit(point, group)));
-            for (place, spot) in spots.iter().enumerate() {
-                weights.set(place, group, &net, spot, depth);
-            }
-        }
-        weights
-    }
-
     /// Over the ring of a tail whose irregular corner is `corner`.
-    pub(super) fn of_tail(
+    pub(super) fn new(
         basis: &ChainBasis,
         corner: u32,
         items: &[Item],
