@@ -55,16 +55,13 @@ impl<'a> Work<'a, '_> {
     /// The samples of a parametric face; results start at `first`.
     fn face(&mut self, root: u32, first: usize) {
         let table = self.batch.table;
-        let items = self.pattern.items();
-        let Some(sheet) = self.pattern.sheet() else {
-            return self.worker.places(root, items, first, &mut self.out);
-        };
+        let sheet = self.pattern.sheet();
         match table.root_leaf(root) {
             Some(net) => self.leaf(net, sheet, first),
             None => self.piece(table.root_node(root), sheet, first),
         }
         if !self.without.is_empty() {
-            let rest = self.without.iter().map(|&place| &items[place as usize]);
+            let rest = self.without.iter().map(|&place| &sheet.items[place as usize]);
             self.worker.places(root, rest, first, &mut self.out);
             self.without.clear();
         }

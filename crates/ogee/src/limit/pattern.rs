@@ -8,22 +8,37 @@ use super::weights::Weights;
 use crate::patch::{Location, LocationError, PatchTable, Tail, child};
 
 /// Places in `[0, 1]^2` that are evaluated on one parametric face after the other, by
-/// [`LimitSurface::eval_pattern`](crate::LimitSurface::eval_pattern). Good for every pose of the table's cage.
+/// [`LimitSurface::eval_pattern`](crate::LimitSurface::eval_pattern), for any pose of the table's cage.
 ///
-/// Pieces of one kind share the weights of the places over their points, which are worked out when the first such piece is
-/// met and kept, in some kilobytes and microseconds a kind. So evaluation is quickest from some dozen faces on, and many
-/// places are dealt with as in [`LimitSurface::eval_batch`](crate::LimitSurface::eval_batch).
+/// Tails of one kind share the weights of the places over their rings. They are worked out when the first such tail is met, in
+/// some microseconds and kilobytes a kind, and kept: a pattern is to be used for many faces, and again for the next pose.
+/// Of more than 64 places on a tail, and at places deep in one, each is evaluated as [`LimitSurface::eval_batch`] does.
+///
+/// [`LimitSurface::eval_batch`]: crate::LimitSurface::eval_batch
+///
+/// ```
+/// use ogee::{Derivatives, Level, LimitSurface, PatchTable, Samples, shapes};
+///
+/// let mesh = shapes::cube();
+/// let table = PatchTable::new(&Level::new(&mesh)?);
+/// let surface = LimitSurface::new(&table, &mesh.points);
+///
+/// // The middles of the four quarters of every face, two faces at a time.
+/// let places = [[0.25, 0.25], [0.75, 0.25], [0.25, 0.75], [0.75, 0.75]];
+/// let pattern = table.pattern(&places, Derivatives::First)?;
+/// let mut samples = Samples::default();
+/// for first in (0..table.len()).step_by(2) {
+///     surface.eval_pattern(&pattern, first..first + 2, &mut samples)?;
+///     assert_eq!(samples.normal.len(), 2 * places.len());
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Pattern<'a> {
     table: &'a PatchTable,
     what: Derivatives,
-    items: Vec<Item>,
-    /// `None` if there are too many places for weights.
-    sheet: Option<Sheet>,
+    sheet: Sheet,
 }
-
-/// The most places that have weights: those of a kind have to stay in the processor's cache.
-const MOST_PLACES: usize = 64;
 
 impl PatchTable {
     /// Places `[u, v]` for every parametric face, and how much is wanted there.
@@ -37,8 +52,7 @@ impl PatchTable {
             corner.at(u, v)?;
             items.push(Item { u, v, index: index as u32 });
         }
-        let sheet = (places.len() <= MOST_PLACES).then(|| Sheet::new(items.clone(), 0, self));
-        Ok(Pattern { table: self, what, items, sheet })
+        Ok(Pattern { table: self, what, sheet: Sheet::new(items, 0, self) })
     }
 }
 
@@ -50,12 +64,12 @@ impl<'a> Pattern<'a> {
 
     /// How many places there are on a face.
     pub fn len(&self) -> usize {
-        self.items.len()
+        self.sheet.items.len()
     }
 
     /// True if there are no places.
     pub fn is_empty(&self) -> bool {
-        self.items.is_empty()
+        self.sheet.items.is_empty()
     }
 
     /// How much is wanted at the places.
@@ -63,14 +77,9 @@ impl<'a> Pattern<'a> {
         self.what
     }
 
-    /// The places, by their numbers.
-    pub(super) fn items(&self) -> &[Item] {
-        &self.items
-    }
-
-    /// What pieces share, if the places are few enough.
-    pub(super) fn sheet(&self) -> Option<&Sheet> {
-        self.sheet.as_ref()
+    /// The places on a whole face.
+    pub(super) fn sheet(&self) -> &Sheet {
+        &self.sheet
     }
 }
 

@@ -123,12 +123,12 @@ impl<'a> LimitSurface<'a> {
         self.batch(what).run(at, out.slices());
     }
 
-    /// The places of a pattern on parametric faces, the first of which is number `faces.start`: face by face, in each the
-    /// places in their order, into memory that may be there already. On all cores; what a face gives depends on no other.
+    /// The places of a pattern on the parametric faces of a range of numbers: face by face, on each in the order of the
+    /// pattern, into memory that may be there already. On all cores; what a face gives depends on no other.
     ///
-    /// As exact as [`LimitSurface::eval_batch`], with the same flags, but not the same bits: sums have another order. Several
-    /// times as quick where few places are wanted on many faces. Quickest with memory that is used again for some
-    /// thousand samples a core at a time.
+    /// As exact as [`LimitSurface::eval_batch`], and with the same flags, but sums near extraordinary vertices are taken in
+    /// another order, so last bits may differ. Costs a half to a third of it where places are few. Quickest in blocks of some
+    /// thousand samples a core, which stay in the cache until they are used.
     ///
     /// # Errors
     /// [`LocationError::HiddenFace`] if one of the faces is no part of the surface ([`PatchTable::is_visible`]); `out` is

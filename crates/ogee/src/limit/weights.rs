@@ -15,6 +15,9 @@ use crate::patch::{ChainBasis, TURNED, Wide};
 /// The most points of a ring that has weights: those of valence 28. With more, sums are no quicker than steps.
 pub(super) const MOST_POINTS: usize = 64;
 
+/// The most places that have weights: those of a kind have to stay in the processor's cache.
+const MOST_PLACES: usize = 64;
+
 /// Steps down a chain to which there are weights. Deeper, a sum loses digits that a walk keeps, whose ring stays relative to
 /// a point near it.
 const STEPS: usize = 4;
@@ -68,11 +71,12 @@ impl Weights {
         what: Derivatives,
     ) -> Weights {
         let count = basis.ring_count();
+        let pays = count <= MOST_POINTS && items.len() <= MOST_PLACES;
         let spots = items.iter().map(|item| {
             let (key, u, v) = in_chain(corner, item.u, item.v);
             let (step, tile) = ((key >> 2) as usize, (key & 3) as usize);
             // Step 0 is the vertex itself.
-            ((1..=STEPS).contains(&step) && count <= MOST_POINTS).then_some(Spot { step, tile, u, v })
+            (pays && (1..=STEPS).contains(&step)).then_some(Spot { step, tile, u, v })
         });
         let (mut weights, spots) = Weights::room(count, items, spots.collect(), what);
         let deepest = spots.iter().map(|spot| spot.step).max().unwrap_or(0);
