@@ -97,7 +97,7 @@ fn what_makes_no_sense_is_refused_and_nothing_is_written() {
         ("render cube.obj -o a.png --eye 0,0,0 --at 1,0,0", 3, "inside"),
         ("render cube.obj -o a.png --eye 0,9,0 --at 0,18,0", 3, "no part of the surface"),
         ("render cube.obj -o a.png --style mean --sampling polygon:2", 3, "curvature"),
-        ("render cube.obj -o a.png --style reflection --light-plane -50", 3, "light plane"),
+        ("render cube.obj -o a.png --style reflection --light-plane 5,1e-9", 3, "light plane"),
         ("render missing.obj -o a.png", 3, "missing.obj"),
         ("render cube.obj -o missing/a.png", 4, "missing"),
     ] {
