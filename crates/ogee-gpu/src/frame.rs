@@ -59,7 +59,8 @@ impl Frame {
             forward: narrow(forward),
             far: (middle + 1.0) as f32,
             size: view.size.map(|x| x as f32),
-            unused: [0.0; 2],
+            line_width: view.line_width() as f32,
+            unused: 0.0,
         }
     }
 

@@ -265,7 +265,9 @@ shared! {
         /// The greatest.
         far: f32,
         size: [f32; 2],
-        unused: [f32; 2],
+        /// Pixels of a line that is one wide.
+        line_width: f32,
+        unused: f32,
     }
 
     /// A plane of light: `ogee::quality::PlaneLight`.

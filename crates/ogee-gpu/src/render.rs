@@ -105,10 +105,10 @@ impl<'d> Renderer<'d> {
             return Err(RenderError::LightMissed.into());
         }
         let mut colours: Vec<_> = texels.colours().collect();
-        if let Style::Combs { scale } = scene.style {
+        if let Style::Combs { share } = scene.style {
             let depth = |bits: u32| if bits == NO_SURFACE { f64::INFINITY } else { unit * value(bits) };
             let depths: Vec<f64> = texels.values().map(depth).collect();
-            comb::draw(surface.view, &prepared.view, scale, &depths, &mut colours);
+            comb::draw(surface.view, &prepared.view, share, &depths, &mut colours);
         }
         let seconds = Stages { ids, position, colour: start.elapsed().as_secs_f64() };
         let level = prepared.cells.trailing_zeros();

@@ -61,7 +61,7 @@ fn styles(bounds: [Vec3; 2]) -> Vec<(&'static str, Style)> {
         ("greatest", map(Quantity::Greatest, None)),
         ("sign", map(Quantity::GaussSign, None)),
         ("error", Style::Error { light, level: 1 }),
-        ("combs", Style::Combs { scale: 0.02 }),
+        ("combs", Style::Combs { share: 0.05 }),
     ]
 }
 

@@ -26,7 +26,7 @@ fn paint(view: View, point: vec3<f32>, normal: vec3<f32>, light: vec3<f32>, brig
 
 // Light and dark bands with a touch of the body's shape.
 fn bands(view: View, point: vec3<f32>, normal: vec3<f32>, bright: f32) -> vec3<f32> {
-    return (0.55 + 0.45 * matt(view, point, normal)) * mix(DARK, LIGHT, bright);
+    return body_light(view, point, normal) * mix(DARK, LIGHT, bright);
 }
 
 // A pattern on the light plane as a point sees it.
@@ -117,13 +117,10 @@ fn map(quantity: u32, value: Value, limit: f32) -> vec3<f32> {
     }
 }
 
-// A map on a body whose shape can still be seen.
-fn on_body(view: View, point: vec3<f32>, normal: vec3<f32>, colour: vec3<f32>) -> vec3<f32> {
-    return (0.55 + 0.45 * matt(view, point, normal)) * colour;
+// How bright a body is whose shape can still be seen below a map.
+fn body_light(view: View, point: vec3<f32>, normal: vec3<f32>) -> f32 {
+    return 0.55 + 0.45 * matt(view, point, normal);
 }
-
-// Pixels of an edge.
-const EDGE_WIDTH = 1.3;
 
 // The edges of a square of parameters on the body: one bit for each side that is one, counter-clockwise from the one along
 // the first parameter.
@@ -140,7 +137,7 @@ fn wire(view: View, st: vec4<f32>, size: vec2<f32>, sides: u32, at: Point, pixel
             nearest = min(nearest, distances[side]);
         }
     }
-    return mix(body(view, at.position, at.normal), EDGE, line(nearest, EDGE_WIDTH));
+    return mix(body(view, at.position, at.normal), EDGE, line(nearest, 1.3 * view.line_width));
 }
 
 // The colour of a displacement of lines, in pixels, up to `limit`.

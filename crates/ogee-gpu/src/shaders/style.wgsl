@@ -45,11 +45,11 @@ fn shade(picture: Picture, seen: Place, place: Place, at: Point) -> Shade {
         }
         case CURVATURE: {
             value = curvature(picture.quantity, at);
-            colour = on_body(view, at.position, at.normal, map(picture.quantity, value, picture.limit));
+            colour = body_light(view, at.position, at.normal) * map(picture.quantity, value, picture.limit);
         }
         case ERROR: {
             value = line_error(picture, seen, at, pixel);
-            colour = on_body(view, at.position, at.normal, displacement(value, picture.limit));
+            colour = body_light(view, at.position, at.normal) * displacement(value, picture.limit);
         }
         default: {
             value.value = to_camera(view, at.position).z;
