@@ -196,3 +196,31 @@ fn no_adapter(options: &DeviceOptions, adapters: &[wgpu::Adapter]) -> GpuError {
         found: if found.is_empty() { "none at all".into() } else { found.join(", ") },
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use ogee::quality::LimitView;
+    use ogee::{Level, LimitSurface, PatchTable, shapes};
+
+    use super::*;
+    use crate::{GpuSurface, Renderer};
+
+    #[test]
+    fn a_device_that_is_gone_is_an_error() {
+        let Ok(device) = Device::new(&DeviceOptions::default()) else {
+            println!("skipped: no adapter");
+            return;
+        };
+        let mesh = shapes::cube();
+        let level = Level::new(&mesh).unwrap();
+        let table = PatchTable::new(&level);
+        let limit = LimitSurface::new(&table, &mesh.points);
+        let view = LimitView::new(&level, &limit);
+        let renderer = Renderer::new(&device).unwrap();
+        let surface = GpuSurface::new(&device, &view).unwrap();
+        device.device.destroy();
+        let scene = ogee_render::Scene::of(&view, [64, 64]);
+        let error = renderer.render(&surface, &scene).unwrap_err();
+        assert!(["device_lost", "device_failed"].contains(&error.code()), "{error}");
+    }
+}
