@@ -6,7 +6,7 @@
 use divan::Bencher;
 use ogee::quality::LimitView;
 use ogee::{ControlMesh, Level, LimitSurface, PatchTable, Vec3, shapes};
-use ogee_gpu::{Device, DeviceOptions, GpuSurface, Pass, Renderer};
+use ogee_gpu::{Device, DeviceOptions, GpuSurface, Pass, Renderer, Storage};
 use ogee_render::{Camera, Pattern, Projection, Sampling, Scene, Style, bounding_box, default_light};
 
 fn main() {
@@ -42,8 +42,9 @@ fn scene(view: &LimitView<'_>, side: u32, sampling: Sampling) -> Scene {
 }
 
 /// Hands a surface and a device on, if there is one.
-fn with_view(rings: u32, then: impl FnOnce(&Device, &LimitView<'_>)) {
-    let Ok(device) = Device::new(&DeviceOptions::default()) else { return };
+fn with_view(rings: u32, storage: Storage, then: impl FnOnce(&Device, &LimitView<'_>)) {
+    let options = DeviceOptions { storage: Some(storage), ..DeviceOptions::default() };
+    let Ok(device) = Device::new(&options) else { return };
     let mesh = bump(rings);
     let level = Level::new(&mesh).expect("a bump is a surface");
     let table = PatchTable::new(&level);
@@ -52,7 +53,18 @@ fn with_view(rings: u32, then: impl FnOnce(&Device, &LimitView<'_>)) {
 }
 
 fn pass(bencher: Bencher<'_, '_>, rings: u32, side: u32, sampling: Sampling, pass: Pass) {
-    with_view(rings, |device, view| {
+    pass_from(Storage::Buffers, bencher, rings, side, sampling, pass);
+}
+
+fn pass_from(
+    storage: Storage,
+    bencher: Bencher<'_, '_>,
+    rings: u32,
+    side: u32,
+    sampling: Sampling,
+    pass: Pass,
+) {
+    with_view(rings, storage, |device, view| {
         let scene = scene(view, side, sampling);
         let renderer = Renderer::new(device).expect("a renderer");
         let surface = GpuSurface::new(device, view).expect("room for the surface");
@@ -72,7 +84,7 @@ fn pass(bencher: Bencher<'_, '_>, rings: u32, side: u32, sampling: Sampling, pas
 
 #[divan::bench(args = RINGS, sample_count = 10, sample_size = 1)]
 fn upload(bencher: Bencher<'_, '_>, rings: u32) {
-    with_view(rings, |device, view| {
+    with_view(rings, Storage::Buffers, |device, view| {
         bencher.bench_local(|| {
             let surface = GpuSurface::new(device, view).expect("room for the surface");
             device.finish().expect("the device answers");
@@ -109,4 +121,9 @@ fn fused(bencher: Bencher<'_, '_>, side: u32) {
 #[divan::bench(args = SIDES, sample_count = 10, sample_size = 1)]
 fn fused_without_newton(bencher: Bencher<'_, '_>, side: u32) {
     pass(bencher, 8, side, Sampling::Parameters(2), Pass::Fused);
+}
+
+#[divan::bench(args = SIDES, sample_count = 10, sample_size = 1)]
+fn fused_from_textures(bencher: Bencher<'_, '_>, side: u32) {
+    pass_from(Storage::Textures, bencher, 8, side, Sampling::Exact, Pass::Fused);
 }

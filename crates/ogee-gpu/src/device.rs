@@ -185,8 +185,7 @@ fn part(storage: Storage, limits: &wgpu::Limits, most_bytes: Option<u64>) -> u32
 }
 
 fn no_adapter(options: &DeviceOptions, adapters: &[wgpu::Adapter]) -> GpuError {
-    let backends: Vec<String> =
-        options.backends.iter_names().map(|(name, _)| name.to_lowercase()).collect();
+    let backends: Vec<String> = options.backends.iter_names().map(|(name, _)| name.to_lowercase()).collect();
     let name = options.name.as_ref().map(|name| format!(" named \"{name}\"")).unwrap_or_default();
     let storage = options.storage.filter(|&storage| storage == Storage::Buffers);
     let with = storage.map(|_| " with storage buffers in fragment shaders").unwrap_or_default();

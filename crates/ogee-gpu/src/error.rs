@@ -21,7 +21,9 @@ pub enum GpuError {
         message: String,
     },
     /// More than the device takes.
-    #[error("{what} of {count} {unit} exceed what the graphics device takes, {most}; render on the processor")]
+    #[error(
+        "{what} of {count} {unit} exceed what the graphics device takes, {most}; render on the processor"
+    )]
     TooLarge {
         /// What is too large.
         what: &'static str,

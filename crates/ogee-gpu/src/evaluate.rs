@@ -32,9 +32,11 @@ impl Renderer<'_> {
             [uniform.as_entire_binding(), wgpu::BindingResource::TextureView(&blank.float)].into_iter(),
         );
         let inputs = [&blank.float, &blank.float, &list, &blank.whole];
-        let inputs = bind(device, &self.layouts[2], inputs.into_iter().map(wgpu::BindingResource::TextureView));
+        let inputs =
+            bind(device, &self.layouts[2], inputs.into_iter().map(wgpu::BindingResource::TextureView));
         let targets = [Target::new(device, size)?, Target::new(device, size)?];
-        self.draw((Entry::Evaluate, Shown::default()), [&scene, &surface.bindings, &inputs], &[&targets[0], &targets[1]], None);
+        let shader = (Entry::Evaluate, Shown::nothing(surface.parts));
+        self.draw(shader, [&scene, &surface.bindings, &inputs], &[&targets[0], &targets[1]], None);
         let [positions, normals] = targets.each_ref().map(|target| target.read(device));
         let (positions, normals) = (positions?, normals?);
         let points = positions.colours().zip(normals.colours()).take(places.len());
@@ -47,8 +49,7 @@ impl Renderer<'_> {
 /// A place as shaders read it: of each parameter and its rest the smaller, rounded once.
 fn pack(place: Location) -> [u32; 4] {
     let [(u, is_far_u), (v, is_far_v)] = place.parameters().map(|x| (x.min(1.0 - x) as f32, x > 0.5));
-    let flags = flag::COVERED
-        | if is_far_u { flag::FAR_S } else { 0 }
-        | if is_far_v { flag::FAR_T } else { 0 };
+    let flags =
+        flag::COVERED | if is_far_u { flag::FAR_S } else { 0 } | if is_far_v { flag::FAR_T } else { 0 };
     [u.to_bits(), v.to_bits(), place.parametric_face() as u32, flags]
 }

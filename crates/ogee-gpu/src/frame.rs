@@ -69,6 +69,13 @@ impl Frame {
         // Infinity is no number that shaders have to know.
         let [half_a, half_b] = light.half.map(|half| self.length(half).min(f64::from(f32::MAX)) as f32);
         let [axis_a, axis_b] = light.axes.map(narrow);
-        layout::PlaneLight { centre: narrow(self.point(light.centre)), half_a, axis_a, half_b, axis_b, unused: 0.0 }
+        layout::PlaneLight {
+            centre: narrow(self.point(light.centre)),
+            half_a,
+            axis_a,
+            half_b,
+            axis_b,
+            unused: 0.0,
+        }
     }
 }

@@ -30,7 +30,8 @@ impl Grids {
         let count = side * side;
         let together = (CORNERS / count).clamp(1, polygon.squares.len().max(1));
         let triangles = triangles(side as u32, together as u32);
-        let indices = buffer(device, "triangles", wgpu::BufferUsages::INDEX, bytemuck::cast_slice(&triangles))?;
+        let indices =
+            buffer(device, "triangles", wgpu::BufferUsages::INDEX, bytemuck::cast_slice(&triangles))?;
         let points: Vec<[f32; 3]> = polygon.points.iter().map(|&point| narrow(frame.point(point))).collect();
         let mut buffers = Vec::new();
         for (squares, points) in polygon.squares.chunks(together).zip(points.chunks(together * count)) {
@@ -39,7 +40,8 @@ impl Grids {
                 .zip(squares)
                 .flat_map(|(grid, &square)| grid.iter().map(move |&position| Vertex { position, square }))
                 .collect();
-            let corners = buffer(device, "corners", wgpu::BufferUsages::VERTEX, bytemuck::cast_slice(&corners))?;
+            let corners =
+                buffer(device, "corners", wgpu::BufferUsages::VERTEX, bytemuck::cast_slice(&corners))?;
             buffers.push((corners, (triangles.len() / together * squares.len()) as u32));
         }
         let textures = match polygon.normals.is_empty() {

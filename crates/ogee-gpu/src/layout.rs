@@ -119,7 +119,7 @@ const CONSTANTS: &[(&str, u32)] = &[
 ];
 
 /// What is shown: known when a shader is compiled, so that it has no more in it than it needs.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Shown {
     pub(crate) style: u32,
     pub(crate) pattern: u32,
@@ -127,18 +127,32 @@ pub(crate) struct Shown {
     pub(crate) ray: u32,
     /// Whether points are of the surface or of the polygon.
     pub(crate) points: u32,
+    /// Over how many bindings control points are spread. Some devices take every branch, and one is the rule.
+    pub(crate) parts: u32,
 }
 
 impl Shown {
+    /// Nothing but points.
+    pub(crate) fn nothing(parts: u32) -> Shown {
+        Shown {
+            style: code::SHADED,
+            pattern: code::LINES,
+            ray: code::REFLECTED,
+            points: code::SURFACE,
+            parts,
+        }
+    }
+
     /// Names and values of the shader's constants.
-    pub(crate) fn constants(self) -> [(&'static str, f64); 4] {
-        let Shown { style, pattern, ray, points } = self;
-        [("STYLE", style), ("PATTERN", pattern), ("RAY", ray), ("POINTS", points)].map(|(name, x)| (name, f64::from(x)))
+    pub(crate) fn constants(self) -> [(&'static str, f64); 5] {
+        let Shown { style, pattern, ray, points, parts } = self;
+        [("STYLE", style), ("PATTERN", pattern), ("RAY", ray), ("POINTS", points), ("PARTS", parts)]
+            .map(|(name, value)| (name, f64::from(value)))
     }
 
     /// Their declarations.
     fn declaration() -> String {
-        Shown::default().constants().map(|(name, _)| format!("override {name}: u32;\n")).concat()
+        Shown::nothing(1).constants().map(|(name, _)| format!("override {name}: u32;\n")).concat()
     }
 }
 

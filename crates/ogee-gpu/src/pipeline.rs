@@ -21,7 +21,11 @@ pub(crate) fn uniform(device: &Device) -> wgpu::Buffer {
     })
 }
 
-fn entry_of(binding: u32, visibility: wgpu::ShaderStages, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntry {
+fn entry_of(
+    binding: u32,
+    visibility: wgpu::ShaderStages,
+    ty: wgpu::BindingType,
+) -> wgpu::BindGroupLayoutEntry {
     wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None }
 }
 
@@ -53,7 +57,12 @@ fn input_layout(device: &Device) -> wgpu::BindGroupLayout {
 }
 
 /// A shader for what is shown.
-pub(crate) fn pipeline(device: &Device, layouts: &[wgpu::BindGroupLayout; 3], entry: Entry, shown: Shown) -> wgpu::RenderPipeline {
+pub(crate) fn pipeline(
+    device: &Device,
+    layouts: &[wgpu::BindGroupLayout; 3],
+    entry: Entry,
+    shown: Shown,
+) -> wgpu::RenderPipeline {
     let Device { device, storage, part, .. } = device;
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("ogee"),

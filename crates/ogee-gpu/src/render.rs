@@ -64,7 +64,8 @@ impl<'d> Renderer<'d> {
     /// If the device fails.
     pub fn new(device: &'d Device) -> Result<Renderer<'d>, GpuError> {
         let texel = [0.0; 4];
-        let blank = |is_float| Data { name: "nothing", bytes: bytemuck::bytes_of(&texel), is_float }.texture(device);
+        let blank =
+            |is_float| Data { name: "nothing", bytes: bytemuck::bytes_of(&texel), is_float }.texture(device);
         let blank = Blank { float: blank(true)?, whole: blank(false)? };
         let layouts = layouts(device);
         Ok(Renderer { device, layouts, pipelines: Default::default(), blank })
@@ -86,7 +87,11 @@ impl<'d> Renderer<'d> {
         let mut texels = prepared.draw(known)?;
         let unit = scene::unit(&scene.style, &surface.frame);
         let values = |texels: &Texels| -> Vec<f64> {
-            texels.values().filter(|&bits| bits != NO_SURFACE && bits != NO_VALUE).map(|bits| unit * value(bits)).collect()
+            texels
+                .values()
+                .filter(|&bits| bits != NO_SURFACE && bits != NO_VALUE)
+                .map(|bits| unit * value(bits))
+                .collect()
         };
         let mut limit = known;
         if matches!(scene.style, Style::Curvature { limit: None, .. }) {
@@ -175,7 +180,7 @@ impl<'d> Renderer<'d> {
 
     fn pipeline(&self, entry: Entry, shown: Shown) -> wgpu::RenderPipeline {
         // Passes that only look for points are the same for all styles.
-        let shown = if entry.is_coloured() { shown } else { Shown::default() };
+        let shown = if entry.is_coloured() { shown } else { Shown::nothing(shown.parts) };
         let mut pipelines = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
         let made = pipelines.entry((entry, shown));
         made.or_insert_with(|| pipeline(self.device, &self.layouts, entry, shown)).clone()
@@ -189,11 +194,15 @@ impl<'d> Renderer<'d> {
         targets: &[&Target],
         grids: Option<(&Grids, &wgpu::TextureView)>,
     ) {
-        let mut encoder = self.device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder =
+            self.device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let attachments: Vec<_> = targets.iter().map(|target| Some(target.attachment(entry))).collect();
         let depth = grids.map(|(_, depth)| wgpu::RenderPassDepthStencilAttachment {
             view: depth,
-            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+            depth_ops: Some(wgpu::Operations {
+                load: wgpu::LoadOp::Clear(0.0),
+                store: wgpu::StoreOp::Discard,
+            }),
             stencil_ops: None,
         });
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -257,7 +266,7 @@ impl Prepared<'_> {
         let entry = pass.entry();
         let groups = [&self.bindings, &self.surface.bindings, inputs];
         let grids = entry.is_raster().then_some((&self.grids, &self.depth));
-        self.renderer.draw((entry, scene::shown(self.scene)), groups, &[target], grids);
+        self.renderer.draw((entry, scene::shown(self.scene, self.surface.parts)), groups, &[target], grids);
     }
 
     /// Tells shaders where the colours of a map end; all passes want it once.

@@ -6,8 +6,9 @@ use crate::flat::narrow;
 use crate::frame::Frame;
 use crate::layout::{self, NEWTON_STEPS, Picture, Shown, code};
 
-/// What a scene shows.
-pub(crate) fn shown(scene: &Scene) -> Shown {
+/// What a scene shows of a surface whose points are in so many parts.
+pub(crate) fn shown(scene: &Scene, parts: u32) -> Shown {
+    let nothing = Shown::nothing(parts);
     let lit = |ray: u32, pattern: &Pattern| {
         let pattern = match pattern {
             Pattern::Lines { .. } => code::LINES,
@@ -15,9 +16,9 @@ pub(crate) fn shown(scene: &Scene) -> Shown {
             Pattern::Circles { .. } => code::CIRCLES,
             Pattern::Image { .. } => code::IMAGE,
         };
-        Shown { style: code::LIT, pattern, ray, ..Shown::default() }
+        Shown { style: code::LIT, pattern, ray, ..nothing }
     };
-    let only = |style: u32| Shown { style, ..Shown::default() };
+    let only = |style: u32| Shown { style, ..nothing };
     let shown = match &scene.style {
         Style::Shaded => only(code::SHADED),
         Style::Wireframe => only(code::WIREFRAME),
@@ -79,12 +80,9 @@ fn pattern(pattern: &Pattern, frame: &Frame) -> layout::Pattern {
     let length = |length: f64| frame.length(length) as f32;
     let base = layout::Pattern { period: 1.0, ..layout::Pattern::default() };
     match pattern {
-        Pattern::Lines { period, width, phase } => layout::Pattern {
-            period: length(*period),
-            width: *width as f32,
-            phase: *phase as f32,
-            ..base
-        },
+        Pattern::Lines { period, width, phase } => {
+            layout::Pattern { period: length(*period), width: *width as f32, phase: *phase as f32, ..base }
+        }
         Pattern::Lattice { period, width } => {
             layout::Pattern { period: length(*period), width: *width as f32, ..base }
         }

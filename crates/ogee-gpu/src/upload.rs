@@ -2,11 +2,11 @@
 
 use ogee::quality::{Layout, LimitView, Side, Surface};
 
+use crate::GpuError;
 use crate::device::{Device, Storage};
 use crate::flat::Flat;
 use crate::frame::Frame;
 use crate::layout::{BORDER, NET_POINTS, PARTS, Square, TEXTURE_WIDTH};
-use crate::GpuError;
 
 /// The limit surface of a cage on a device.
 #[derive(Debug)]
@@ -14,6 +14,8 @@ pub struct GpuSurface<'a> {
     pub(crate) view: &'a LimitView<'a>,
     pub(crate) frame: Frame,
     pub(crate) bindings: wgpu::BindGroup,
+    /// Over how many bindings its control points are spread.
+    pub(crate) parts: u32,
     bytes: u64,
 }
 
@@ -25,7 +27,8 @@ impl<'a> GpuSurface<'a> {
     pub fn new(device: &Device, view: &'a LimitView<'a>) -> Result<GpuSurface<'a>, GpuError> {
         let frame = Frame::new(ogee_render::bounding_box(view));
         let flat = Flat::new(view.surface(), &frame);
-        let squares: Vec<Square> = (0..view.layout().squares().len() as u32).map(|number| square(view.layout(), number)).collect();
+        let squares: Vec<Square> =
+            (0..view.layout().squares().len() as u32).map(|number| square(view.layout(), number)).collect();
         let part = device.part as usize;
         if flat.points.len() > PARTS * part {
             return Err(GpuError::TooLarge {
@@ -35,15 +38,18 @@ impl<'a> GpuSurface<'a> {
                 most: (PARTS * part) as u64 / u64::from(NET_POINTS),
             });
         }
-        let mut parts = flat.points.chunks(part);
+        let parts = flat.points.len().div_ceil(part).max(1) as u32;
+        let mut points = flat.points.chunks(part);
         let mut data: Vec<Data<'_>> = vec![
             Data::whole("faces", bytemuck::cast_slice(&flat.faces)),
             Data::whole("nodes", bytemuck::cast_slice(&flat.nodes)),
             Data::whole("chains", bytemuck::cast_slice(&flat.tails)),
             Data::whole("squares", bytemuck::cast_slice(&squares)),
         ];
-        data.extend((0..PARTS).map(|_| {
-            Data { name: "points", bytes: bytemuck::cast_slice(parts.next().unwrap_or_default()), is_float: true }
+        data.extend((0..PARTS).map(|_| Data {
+            name: "points",
+            bytes: bytemuck::cast_slice(points.next().unwrap_or_default()),
+            is_float: true,
         }));
         let bytes = data.iter().map(|data| data.bytes.len() as u64).sum();
         let layout = layout(device);
@@ -58,7 +64,7 @@ impl<'a> GpuSurface<'a> {
             }
         };
         device.check()?;
-        Ok(GpuSurface { view, frame, bindings, bytes })
+        Ok(GpuSurface { view, frame, bindings, parts, bytes })
     }
 
     /// How much of the device's memory it takes.

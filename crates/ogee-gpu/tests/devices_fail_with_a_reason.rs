@@ -26,7 +26,8 @@ fn a_device_that_takes_too_long_is_an_error() {
     with_view(&shapes::cube(), |view, _| {
         let surface = GpuSurface::new(&device, view).expect("room for the surface");
         let renderer = Renderer::new(&device).expect("a renderer");
-        let error = renderer.render(&surface, &Scene::of(view, [800, 800])).expect_err("nobody is that quick");
+        let error =
+            renderer.render(&surface, &Scene::of(view, [800, 800])).expect_err("nobody is that quick");
         assert_eq!(error.code(), "device_timeout");
     });
 }

@@ -80,7 +80,13 @@ fn pyramid() -> ControlMesh {
 }
 
 /// Some styles of a cage, or all: exact points in perspective, and in turn one of some other ways.
-fn compare(name: &str, mesh: &ControlMesh, options: &DeviceOptions, others: &[(bool, Sampling)], which: &[&str]) {
+fn compare(
+    name: &str,
+    mesh: &ControlMesh,
+    options: &DeviceOptions,
+    others: &[(bool, Sampling)],
+    which: &[&str],
+) {
     let Some(device) = device(options) else { return };
     let renderer = Renderer::new(&device).expect("a renderer");
     with_view(mesh, |view, _| {

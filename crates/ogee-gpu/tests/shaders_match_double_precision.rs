@@ -37,7 +37,9 @@ fn compare(storage: Storage) {
                 samples.iter().map(|sample| (point(&sample["S"]), point(&sample["n"]))).collect();
             // And places that the golden samples leave out: other faces, all corners.
             for square in ogee::quality::Surface::layout(view).squares() {
-                for [s, t] in [[0.0, 0.3], [0.7, 0.9], [0.999, 0.9995], [1e-4, 0.9999], [0.5, 0.5], [1.0, 1.0]] {
+                for [s, t] in
+                    [[0.0, 0.3], [0.7, 0.9], [0.999, 0.9995], [1e-4, 0.9999], [0.5, 0.5], [1.0, 1.0]]
+                {
                     let place = square.at(s, t);
                     let exact = view.surface().eval(place);
                     places.push(place);

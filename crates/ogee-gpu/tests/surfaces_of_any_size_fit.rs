@@ -23,7 +23,8 @@ fn picture(device: &Device, view: &LimitView<'_>) -> Picture {
 
 #[test]
 fn parts_and_textures_give_the_same_picture() {
-    let with = |storage, most_bytes| DeviceOptions { storage: Some(storage), most_bytes, ..Default::default() };
+    let with =
+        |storage, most_bytes| DeviceOptions { storage: Some(storage), most_bytes, ..Default::default() };
     with_view(&shapes::disk(12, 1), |view, _| {
         let Some(whole) = device(&with(Storage::Buffers, None)) else { return };
         let wanted = picture(&whole, view);
@@ -65,7 +66,8 @@ fn a_hundred_thousand_faces_are_rendered() {
         let found = picture(&device, view);
         let wanted = render(view, &stripes(view)).expect("a picture");
         let pairs = wanted.colours.iter().flatten().zip(found.colours.iter().flatten());
-        let mean = pairs.map(|(a, b)| f64::from((a - b).abs())).sum::<f64>() / (3 * wanted.colours.len()) as f64;
+        let mean =
+            pairs.map(|(a, b)| f64::from((a - b).abs())).sum::<f64>() / (3 * wanted.colours.len()) as f64;
         assert!(mean < 1.0 / 255.0, "{mean}");
     });
 }

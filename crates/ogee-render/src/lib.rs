@@ -37,6 +37,7 @@ pub use image::{Image, ImageError, Light};
 pub use polygon::Polygon;
 pub use raster::Fragment;
 pub use render::{
-    DISPLACEMENT, MOST_PIXELS, Picture, RenderError, Stages, bounding_box, check, limit, outline, polygon, render,
+    DISPLACEMENT, MOST_PIXELS, Picture, RenderError, Stages, bounding_box, check, limit, outline, polygon,
+    render,
 };
 pub use style::{Pattern, Quantity, Sampling, Scene, Style, default_light};

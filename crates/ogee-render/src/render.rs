@@ -475,7 +475,9 @@ pub fn limit(style: &Style, values: impl Iterator<Item = f64>) -> Option<f64> {
     match style {
         Style::Curvature { limit: Some(limit), .. } => Some(*limit),
         Style::Error { .. } => Some(DISPLACEMENT),
-        Style::Curvature { quantity: Quantity::GaussSign, limit: None } => values.map(f64::abs).reduce(f64::max),
+        Style::Curvature { quantity: Quantity::GaussSign, limit: None } => {
+            values.map(f64::abs).reduce(f64::max)
+        }
         Style::Curvature { limit: None, .. } => {
             let mut sizes: Vec<f64> = values.map(f64::abs).collect();
             sizes.sort_unstable_by(f64::total_cmp);

@@ -27,6 +27,14 @@ fn load_square(i: u32) -> Square {
 
 // Four control points, one in each column. A row of a net never lies in two parts.
 fn load_row(first: u32) -> mat4x3<f32> {
+    if PARTS == 1u {
+        return mat4x3<f32>(
+            points_0[first].xyz,
+            points_0[first + 1u].xyz,
+            points_0[first + 2u].xyz,
+            points_0[first + 3u].xyz,
+        );
+    }
     let i = first & ((1u << PART_SHIFT) - 1u);
     switch first >> PART_SHIFT {
         case 0u: {

@@ -40,6 +40,9 @@ fn row_of(points: texture_2d<f32>, first: u32) -> mat4x3<f32> {
 
 // Four control points, one in each column. A row of a net never lies in two parts, nor in two rows of texels.
 fn load_row(first: u32) -> mat4x3<f32> {
+    if PARTS == 1u {
+        return row_of(points_0, first);
+    }
     let i = first & ((1u << PART_SHIFT) - 1u);
     switch first >> PART_SHIFT {
         case 0u: { return row_of(points_0, i); }

@@ -3,8 +3,8 @@
 // A step longer than this leaves the region in which it can be trusted.
 const LONGEST = 0.15;
 
-// Of a pixel: where no more is left, lines are where they belong.
-const DONE = 1e-3;
+// Of a pixel: what is left then changes no colour by more than one of 255.
+const DONE = 4e-3;
 
 // A place and the surface there.
 struct Found {

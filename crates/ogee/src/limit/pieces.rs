@@ -70,9 +70,9 @@ impl LimitSurface<'_> {
         match piece {
             Piece::Leaf(leaf) => FacePiece::Leaf(self.net(self.table().leaf(leaf))),
             Piece::Tail(number) => FacePiece::Tail(self.tail(number, self.table().tail(number), least)),
-            Piece::Split(split) => {
-                FacePiece::Split(Box::new(self.table().split(split).map(|node| self.piece(node.piece(), least))))
-            }
+            Piece::Split(split) => FacePiece::Split(Box::new(
+                self.table().split(split).map(|node| self.piece(node.piece(), least)),
+            )),
         }
     }
 
@@ -120,9 +120,8 @@ mod tests {
     /// Position and derivatives, by sixteen products.
     fn sum(net: &PatchNet, u: f64, v: f64) -> [Vec3; 3] {
         let (bu, bv) = (basis(u), basis(v));
-        [(0, 0), (1, 0), (0, 1)].map(|(i, j)| {
-            (0..16).fold(Vec3::ZERO, |sum, k| sum + bu[i][k % 4] * bv[j][k / 4] * net[k])
-        })
+        [(0, 0), (1, 0), (0, 1)]
+            .map(|(i, j)| (0..16).fold(Vec3::ZERO, |sum, k| sum + bu[i][k % 4] * bv[j][k / 4] * net[k]))
     }
 
     /// The patch at `(u, v)` of a piece, its offset, its parameters and the inverse of its width.
