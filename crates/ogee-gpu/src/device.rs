@@ -13,7 +13,7 @@ use crate::layout::{PARTS, TEXTURE_WIDTH};
 pub enum Storage {
     /// From storage buffers.
     Buffers,
-    /// From textures: slower, and there where buffers are not, as in WebGL2.
+    /// From textures: quicker on software devices, and there where buffers are not, as in WebGL2.
     Textures,
 }
 
@@ -67,9 +67,8 @@ impl Device {
         let mut adapters = adapters(options.backends - Backends::GL);
         let wanted = options.name.as_deref().unwrap_or_default().to_lowercase();
         let is_wanted = |adapter: &&wgpu::Adapter| {
-            let storage = options.storage.unwrap_or_else(|| best_storage(adapter));
-            adapter.get_info().name.to_lowercase().contains(&wanted)
-                && (storage == Storage::Textures || best_storage(adapter) == Storage::Buffers)
+            let fits = options.storage != Some(Storage::Buffers) || has_buffers(adapter);
+            fits && adapter.get_info().name.to_lowercase().contains(&wanted)
         };
         // OpenGL reaches the same devices by a longer way.
         if !adapters.iter().any(|adapter| is_wanted(&adapter)) {
@@ -155,11 +154,17 @@ fn adapters(backends: Backends) -> Vec<wgpu::Adapter> {
     pollster::block_on(wgpu::Instance::new(descriptor).enumerate_adapters(backends))
 }
 
-/// Whether shaders of an adapter read buffers.
+/// Whether fragment shaders of an adapter read as many buffers as a surface has.
+fn has_buffers(adapter: &wgpu::Adapter) -> bool {
+    adapter.get_downlevel_capabilities().flags.contains(DownlevelFlags::FRAGMENT_STORAGE)
+        && adapter.limits().max_storage_buffers_per_shader_stage as usize >= 4 + PARTS
+}
+
+/// What shaders of an adapter read quickest. Software reads buffers one number after the other, texels several at a time: a
+/// third of the time.
 fn best_storage(adapter: &wgpu::Adapter) -> Storage {
-    let has_buffers = adapter.get_downlevel_capabilities().flags.contains(DownlevelFlags::FRAGMENT_STORAGE);
-    let enough = adapter.limits().max_storage_buffers_per_shader_stage as usize >= 4 + PARTS;
-    if has_buffers && enough { Storage::Buffers } else { Storage::Textures }
+    let is_software = adapter.get_info().device_type == DeviceType::Cpu;
+    if has_buffers(adapter) && !is_software { Storage::Buffers } else { Storage::Textures }
 }
 
 /// The best is least.

@@ -145,8 +145,8 @@ fn polygons_creases_and_borders_look_the_same() {
 const FEW: [&str; 4] = ["lines", "image", "mean", "error"];
 
 #[test]
-fn textures_look_the_same() {
-    let options = DeviceOptions { storage: Some(Storage::Textures), ..DeviceOptions::default() };
+fn buffers_look_the_same() {
+    let options = DeviceOptions { storage: Some(Storage::Buffers), ..DeviceOptions::default() };
     compare("cube", &shapes::cube(), &options, &[(true, Sampling::Polygon(2))], &FEW);
 }
 

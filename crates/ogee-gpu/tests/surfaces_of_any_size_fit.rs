@@ -44,7 +44,8 @@ fn parts_and_textures_give_the_same_picture() {
 #[test]
 fn what_does_not_fit_is_refused() {
     with_view(&shapes::cube(), |view, _| {
-        let options = DeviceOptions { most_bytes: Some(1 << 14), ..Default::default() };
+        let storage = Some(Storage::Buffers);
+        let options = DeviceOptions { storage, most_bytes: Some(1 << 14), ..Default::default() };
         let Some(small) = device(&options) else { return };
         let error = GpuSurface::new(&small, view).expect_err("four parts of 16 kilobytes are too few");
         assert_eq!(error.code(), "too_large_for_device");

@@ -36,6 +36,17 @@ fn on_side(side: u32, x: f32, rest: f32) -> vec4<f32> {
     }
 }
 
+fn limited(step: vec2<f32>) -> vec2<f32> {
+    return clamp(step, vec2<f32>(-LONGEST), vec2<f32>(LONGEST));
+}
+
+// Where a step leads, to second order.
+fn bent(jet: Jet, step: vec2<f32>) -> vec3<f32> {
+    let slope = step.x * jet.du + step.y * jet.dv;
+    let bend = 0.5 * (step.x * step.x * jet.duu + step.y * step.y * jet.dvv) + step.x * step.y * jet.duv;
+    return jet.position + slope + bend;
+}
+
 // The point of the surface that the middle of the pixel shows; with no steps that at the place itself. A step goes to the side
 // of a square at most, and the next one from there into the square beyond.
 fn exact(view: View, start: Place, middle: vec2<f32>, steps: u32) -> Found {
@@ -49,7 +60,12 @@ fn exact(view: View, start: Place, middle: vec2<f32>, steps: u32) -> Found {
         let jet = found.sample.jet;
         let pixel = footprint(view, jet.position, mat2x3<f32>(square.size.x * jet.du, square.size.y * jet.dv));
         let missing = middle - pixel_of(view, to_camera(view, jet.position));
-        let along = clamp(missing.x * pixel.x + missing.y * pixel.y, vec2<f32>(-LONGEST), vec2<f32>(LONGEST));
+        var along = limited(missing.x * pixel.x + missing.y * pixel.y);
+        // Where second derivatives say that this will not be enough, they say what is missing.
+        let left = middle - pixel_of(view, to_camera(view, bent(jet, square.size * along)));
+        if 2.0 * length(left) < length(missing) {
+            along = limited(along + left.x * pixel.x + left.y * pixel.y);
+        }
         // What is no number compares as false.
         if step == steps || !(length(missing) > DONE) || !(dot(along, along) >= 0.0) {
             break;
