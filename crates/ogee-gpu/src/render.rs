@@ -25,7 +25,7 @@ pub enum Pass {
     Position,
     /// Its colour.
     Colour,
-    /// All three at once, at the point that the middle of the pixel shows.
+    /// Both at once, for the point that the middle of the pixel shows.
     Fused,
 }
 
@@ -73,7 +73,7 @@ impl<'d> Renderer<'d> {
 
     /// Makes a picture: the same as [`ogee_render::render`], in single precision.
     ///
-    /// Pixels of [`Sampling::Parameters`] are made in the three passes of the paper, others in one. Of the seconds, `ids` is for the
+    /// Pixels of [`Sampling::Parameters`] are made in the three passes of the paper, others in two. Of the seconds, `ids` is for the
     /// polygon, `position` for the passes, `colour` for what comes after.
     ///
     /// # Errors
@@ -247,7 +247,7 @@ pub struct Prepared<'a> {
     grids: Grids,
     uniform: wgpu::Buffer,
     bindings: wgpu::BindGroup,
-    /// For passes that draw the polygon, for positions, for colours.
+    /// With nothing yet, with parameters, with positions as well.
     inputs: [wgpu::BindGroup; 3],
     /// Parameters, positions, colours.
     targets: [Target; 3],
@@ -261,7 +261,7 @@ impl Prepared<'_> {
             Pass::Parameter => (&self.inputs[0], &self.targets[0]),
             Pass::Position => (&self.inputs[1], &self.targets[1]),
             Pass::Colour => (&self.inputs[2], &self.targets[2]),
-            Pass::Fused => (&self.inputs[0], &self.targets[2]),
+            Pass::Fused => (&self.inputs[1], &self.targets[2]),
         };
         let entry = pass.entry();
         let groups = [&self.bindings, &self.surface.bindings, inputs];
@@ -278,8 +278,11 @@ impl Prepared<'_> {
     /// All passes.
     fn draw(&self, limit: Option<f64>) -> Result<Texels, GpuError> {
         self.set_limit(limit);
+        // A shader that does little for triangles, one that does much for pixels: small triangles are drawn in whole blocks.
+        self.run(Pass::Parameter);
         if matches!(self.scene.sampling, Sampling::Parameters(_)) && !scene::is_error(self.scene) {
-            [Pass::Parameter, Pass::Position, Pass::Colour].into_iter().for_each(|pass| self.run(pass));
+            self.run(Pass::Position);
+            self.run(Pass::Colour);
         } else {
             self.run(Pass::Fused);
         }

@@ -12,7 +12,7 @@ pub(crate) enum Entry {
     Position,
     /// Its colour.
     Colour,
-    /// All three in one, at the middle of the pixel.
+    /// Both at once, for the middle of the pixel.
     Fused,
     /// Points at listed places.
     Evaluate,
@@ -43,7 +43,7 @@ impl Entry {
 
     /// True if it draws the polygon, false if one triangle over all pixels.
     pub(crate) fn is_raster(self) -> bool {
-        matches!(self, Entry::Parameter | Entry::Fused)
+        self == Entry::Parameter
     }
 
     /// True if it writes colours.

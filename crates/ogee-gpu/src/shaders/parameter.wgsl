@@ -1,4 +1,4 @@
-// First pass of the paper: which square and parameters each pixel shows.
+// First pass: which square and parameters each pixel shows.
 
 @fragment
 fn fragment(in: Raster) -> @location(0) vec4<u32> {

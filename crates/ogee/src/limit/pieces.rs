@@ -13,6 +13,7 @@ pub type PatchNet = [Vec3; 16];
 /// What a parametric face, or a piece of it, is made of. Every piece has parameters of its own in `[0, 1]`, in the
 /// directions of the face.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "most pieces are leaves")]
 pub enum FacePiece {
     /// One bicubic patch.
     Leaf(PatchNet),
