@@ -53,6 +53,22 @@ pub struct PatchTable {
 #[repr(align(64))]
 pub(crate) struct Sources(pub(crate) [u32; 16]);
 
+impl Sources {
+    /// A root that is no leaf: [`NO_LEAF`], then its node.
+    pub(super) fn node(node: Node) -> Sources {
+        let mut slot = [0; 16];
+        slot[..2].copy_from_slice(&[NO_LEAF, node.bits()]);
+        Sources(slot)
+    }
+
+    /// A root that is a tail: the tail follows its node.
+    pub(super) fn tail(node: Node, Tail { first, kind, corner }: Tail) -> Sources {
+        let mut root = Sources::node(node);
+        root.0[2..5].copy_from_slice(&[first, kind, corner]);
+        root
+    }
+}
+
 /// Stands first in a root that is not a leaf; no point has this number.
 pub(super) const NO_LEAF: u32 = u32::MAX;
 

@@ -82,6 +82,22 @@ impl StencilTable {
         self.weights.extend_from_slice(&other.weights);
     }
 
+    /// The same rows over only those of `count` sources that they name, and these sources.
+    pub(crate) fn over_used(mut self, count: usize) -> (StencilTable, Vec<u32>) {
+        // Zeros that no one has touched yet cost nothing.
+        let mut places = vec![0; count];
+        let mut used = Vec::new();
+        for source in &mut self.sources {
+            let place = &mut places[*source as usize];
+            if *place == 0 {
+                used.push(*source);
+                *place = used.len() as u32;
+            }
+            *source = *place - 1;
+        }
+        (self, used)
+    }
+
     /// Number of rows.
     pub fn len(&self) -> usize {
         self.starts.len().saturating_sub(1)
