@@ -38,17 +38,53 @@ pub(crate) fn smooth_vertex(mesh: &impl Connectivity, v: VertexId, weight: f64, 
     }
 }
 
+/// [`smooth_edge`] and the masks of its face points at once, which names the ends once: several times as fast.
+pub(crate) fn edge_point(mesh: &impl Connectivity, h: HalfedgeId, twin: HalfedgeId, row: &mut Row) {
+    let mut end = 1.0 / 4.0;
+    for side in [h, twin] {
+        let size = mesh.face_size(mesh.face(side));
+        let share = 1.0 / 4.0 / f64::from(size);
+        let mut g = mesh.next(side);
+        for _ in 2..size {
+            g = mesh.next(g);
+            row.add(mesh.origin(g), share);
+        }
+        end += share;
+    }
+    row.add(mesh.origin(h), end);
+    row.add(mesh.origin(twin), end);
+}
+
+/// [`smooth_vertex`] and the masks of its face points at once, which names each neighbour once.
+pub(crate) fn vertex_point(mesh: &impl Connectivity, v: VertexId, row: &mut Row) {
+    let n = mesh.ring(v).count() as f64;
+    let mut own = (n - 2.0) / n;
+    for h in mesh.ring(v) {
+        let size = mesh.face_size(mesh.face(h));
+        let share = 1.0 / (n * n) / f64::from(size);
+        own += share;
+        let twin = mesh.twin(h).expect("no boundary is near");
+        let other_share = 1.0 / (n * n) / f64::from(mesh.face_size(mesh.face(twin)));
+        row.add(mesh.target(h), 1.0 / (n * n) + share + other_share);
+        let mut g = mesh.next(h);
+        for _ in 3..size {
+            g = mesh.next(g);
+            row.add(mesh.origin(g), share);
+        }
+    }
+    row.add(v, own);
+}
+
 /// What makes a vertex of the next level, by its number there, where no tag and no boundary is near.
 pub(crate) fn smooth_child(mesh: &impl Connectivity, child: u32, row: &mut Row) {
     let (vertices, faces) = (mesh.vertex_count() as u32, mesh.face_count() as u32);
     if child < vertices {
-        smooth_vertex(mesh, VertexId(child), 1.0, row);
+        vertex_point(mesh, VertexId(child), row);
     } else if child < vertices + faces {
         face_point(mesh, FaceId(child - vertices), 1.0, row);
     } else {
         let h = mesh.side(EdgeId(child - vertices - faces));
-        let twin = mesh.twin(h).expect("no boundary is near");
-        smooth_edge(mesh, h, twin, 1.0, row);
+        edge_point(mesh, h, mesh.twin(h).expect("no boundary is near"), row);
     }
-    row.expand_face_points(|f, weight, row| face_point(mesh, f, weight, row));
+    row.expand_face_points(|_, _, _| ());
 }

@@ -105,7 +105,7 @@ impl Builder {
         }
         self.table.starts = starts;
         if !split.is_empty() {
-            self.plain_splits(level, mesh, split);
+            self.plain_splits(mesh, split);
         }
         rest
     }
@@ -166,12 +166,12 @@ impl Builder {
     }
 
     /// Settles what has to be split, where no tag and no boundary touches it.
-    fn plain_splits(&mut self, level: &Level, mesh: &impl Connectivity, split: Vec<Target>) {
+    fn plain_splits(&mut self, mesh: &impl Connectivity, split: Vec<Target>) {
         let ahead = Ahead(mesh);
         let mut points = Points::new(ahead.vertex_count(), self.next_point());
         let targets = self.cut(mesh, split);
         let split = self.settle_plain(&ahead, &[], targets, &mut points);
-        self.table.local.extend(&points.rows(|vertex, _, row| level.child_mask(vertex, row)));
+        self.table.local.extend(&points.rows(|vertex, _, row| rule::smooth_child(mesh, vertex, row)));
         if split.is_empty() {
             return;
         }
@@ -182,7 +182,7 @@ impl Builder {
         assert!(split.is_empty(), "two steps part all irregular corners");
         let rows = points.rows(|vertex, _, row| rule::smooth_child(&ahead, vertex, row));
         let (rows, used) = rows.over_used(ahead.vertex_count());
-        let above = StencilTable::from_rows(used.len(), |i, row| level.child_mask(used[i], row));
+        let above = StencilTable::from_rows(used.len(), |i, row| rule::smooth_child(mesh, used[i], row));
         self.table.local.extend(&above.then(&rows));
     }
 

@@ -94,8 +94,8 @@ pub struct PatchStatistics {
 impl PatchTable {
     /// The table of a level.
     ///
-    /// Costs some 0.1 microseconds a regular quad and a few times that where there is an extraordinary vertex; other
-    /// polygons, creases and quads with several extraordinary vertices cost some microseconds. Runs on all cores.
+    /// Costs some 0.1 microseconds a quad with at most one extraordinary vertex, and some two where there are several;
+    /// other polygons, creases and boundaries cost some microseconds. Runs on all cores.
     pub fn new(level: &Level) -> PatchTable {
         build::table(level)
     }

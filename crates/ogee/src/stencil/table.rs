@@ -34,15 +34,31 @@ impl StencilTable {
             }
             part
         });
-        let mut table = StencilTable::default();
-        table.starts.push(0);
+        let total: usize = chunks.iter().map(|part| part.sources.len()).sum();
+        u32::try_from(total).expect("fewer than 2^32 weights in a table");
+        // Zeros that no one has touched yet cost nothing.
+        let mut table =
+            StencilTable { starts: vec![0; count + 1], sources: vec![0; total], weights: vec![0.0; total] };
+        let (mut starts, mut sources, mut weights) =
+            (&mut table.starts[1..], &mut table.sources[..], &mut table.weights[..]);
+        let mut offset = 0;
+        let mut copies = Vec::with_capacity(chunks.len());
         for part in chunks {
-            let offset = table.sources.len();
-            u32::try_from(offset + part.sources.len()).expect("fewer than 2^32 weights in a table");
-            table.starts.extend(part.starts.iter().map(|end| end + offset as u32));
-            table.sources.extend(part.sources);
-            table.weights.extend(part.weights);
+            let (rows, entries) = (part.starts.len(), part.sources.len());
+            let (own_starts, own_sources, own_weights);
+            (own_starts, starts) = starts.split_at_mut(rows);
+            (own_sources, sources) = sources.split_at_mut(entries);
+            (own_weights, weights) = weights.split_at_mut(entries);
+            copies.push((part, own_starts, own_sources, own_weights, offset));
+            offset += entries as u32;
         }
+        par::each(copies, |(part, starts, sources, weights, offset)| {
+            for (start, end) in starts.iter_mut().zip(part.starts) {
+                *start = end + offset;
+            }
+            sources.copy_from_slice(&part.sources);
+            weights.copy_from_slice(&part.weights);
+        });
         table
     }
 
