@@ -261,3 +261,29 @@ fn is_plain(mesh: &impl Connectivity, face: FaceId, tagged: &[bool]) -> bool {
         inside && !tagged.get(v.index()).is_some_and(|&tagged| tagged)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::build;
+    use super::super::surroundings::{Mirrored, Surroundings};
+    use super::*;
+    use crate::mesh::shapes;
+
+    #[test]
+    fn rings_are_where_tails_look_for_them() {
+        // More than one chunk of roots.
+        let level = Level::new(&shapes::studded_torus(48, 36, 4)).unwrap();
+        let (table, surroundings) = (build::table(&level), Surroundings::new(&level));
+        let mut tails = 0;
+        for root in (0..table.len() as u32).filter(|&root| table.root_leaf(root).is_none()) {
+            let Piece::Tail(index) = table.root_node(root).piece() else { continue };
+            let (own, tail) = (table.root_tail(root), table.tail(index));
+            assert_eq!([own.first, own.kind, own.corner], [tail.first, tail.kind, tail.corner]);
+            let ring: Vec<Mirrored> = table.ring(tail).iter().map(|&point| vec![(point, 1.0)]).collect();
+            let h = HalfedgeId(4 * root + tail.corner);
+            assert_eq!(ring, surroundings.ring(h, table.basis(tail).kind));
+            tails += 1;
+        }
+        assert_eq!(tails, 4 * 12 * 9);
+    }
+}
