@@ -2,6 +2,8 @@
 
 use std::io::{self, Cursor};
 
+use crate::colour::decode;
+
 /// Pixels of red, green, blue and opacity, row by row from the top left, encoded as sRGB.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Image {
@@ -91,4 +93,69 @@ impl Image {
 pub struct Light {
     /// From the largest to a single pixel; each with its size.
     pub levels: Vec<([u32; 2], Vec<[f32; 3]>)>,
+}
+
+impl Light {
+    /// All scales of a picture; what is not opaque is dark.
+    pub fn new(image: &Image) -> Light {
+        let bright = |x: u8| decode(f32::from(x) / 255.0);
+        let full: Vec<[f32; 3]> = image
+            .pixels
+            .chunks_exact(4)
+            .map(|p| [p[0], p[1], p[2]].map(|x| bright(x) * f32::from(p[3]) / 255.0))
+            .collect();
+        let mut levels = vec![(image.size, full)];
+        while let Some(([width, height], last)) = levels.last().filter(|(size, _)| size[0] > 1 || size[1] > 1)
+        {
+            let size = [width.div_ceil(2), height.div_ceil(2)];
+            let pixel = |x: u32, y: u32| {
+                let at = |x: u32, y: u32| last[(y.min(height - 1) * width + x.min(width - 1)) as usize];
+                let four =
+                    [at(2 * x, 2 * y), at(2 * x + 1, 2 * y), at(2 * x, 2 * y + 1), at(2 * x + 1, 2 * y + 1)];
+                std::array::from_fn(|k| 0.25 * four.iter().map(|colour| colour[k]).sum::<f32>())
+            };
+            let next = (0..size[1])
+                .flat_map(|y| (0..size[0]).map(move |x| (x, y)))
+                .map(|(x, y)| pixel(x, y))
+                .collect();
+            levels.push((size, next));
+        }
+        Light { levels }
+    }
+
+    /// The colour at a place of the plane, with the picture's width from `-half` to `half` and its top towards the second
+    /// axis, averaged over `spread`; `None` beside the picture.
+    pub fn at(&self, [x, y]: [f64; 2], half: f64, spread: f64) -> Option<[f32; 3]> {
+        let ([width, height], _) = self.levels.first()?;
+        let tall = half * f64::from(*height) / f64::from(*width);
+        if !(x.abs() <= half && y.abs() <= tall) {
+            return None;
+        }
+        let (s, t) = ((x / half + 1.0) / 2.0, (1.0 - y / tall) / 2.0);
+        let texels = spread / (2.0 * half) * f64::from(*width);
+        let level = texels.max(1.0).log2().min((self.levels.len() - 1) as f64);
+        let fine = level as usize;
+        let coarse = (fine + 1).min(self.levels.len() - 1);
+        let part = (level - fine as f64) as f32;
+        let (a, b) = (self.level_at(fine, s, t), self.level_at(coarse, s, t));
+        Some(std::array::from_fn(|k| a[k] + part * (b[k] - a[k])))
+    }
+
+    /// Between the four nearest pixels of one scale.
+    fn level_at(&self, level: usize, s: f64, t: f64) -> [f32; 3] {
+        let ([width, height], pixels) = &self.levels[level];
+        let split = |x: f64, count: u32| {
+            let x = (x * f64::from(count) - 0.5).clamp(0.0, f64::from(count - 1));
+            let first = x as u32;
+            (first, (first + 1).min(count - 1), (x - f64::from(first)) as f32)
+        };
+        let ((x0, x1, dx), (y0, y1, dy)) = (split(s, *width), split(t, *height));
+        let at = |x: u32, y: u32| pixels[(y * width + x) as usize];
+        let four = [at(x0, y0), at(x1, y0), at(x0, y1), at(x1, y1)];
+        std::array::from_fn(|k| {
+            let (top, bottom) =
+                (four[0][k] + dx * (four[1][k] - four[0][k]), four[2][k] + dx * (four[3][k] - four[2][k]));
+            top + dy * (bottom - top)
+        })
+    }
 }

@@ -7,14 +7,30 @@
 //!
 //! | file | holds |
 //! | --- | --- |
+//! | `render` | [`render`]: the passes, [`Picture`] |
+//! | `polygon`, `raster` | [`Polygon`], [`Fragment`]: which face and parameters a pixel shows |
+//! | `solve` | from there to the point that the pixel shows exactly |
+//! | `comb` | combs |
 //! | `camera` | [`Camera`], [`View`]: where a point is in the picture |
 //! | `style` | [`Scene`], [`Style`], [`Pattern`]: what is shown |
+//! | [`pattern`], [`colour`], [`shade`] | how bright, which colour: functions with twins in shaders |
 //! | `image` | [`Image`]: pixels, PNG |
 
 mod camera;
+pub mod colour;
+mod comb;
 mod image;
+pub mod pattern;
+mod polygon;
+mod raster;
+mod render;
+pub mod shade;
+mod solve;
 mod style;
 
 pub use camera::{Camera, Projection, View};
 pub use image::{Image, ImageError, Light};
+pub use polygon::Polygon;
+pub use raster::Fragment;
+pub use render::{DISPLACEMENT, MOST_PIXELS, Picture, RenderError, Stages, bounding_box, render};
 pub use style::{Pattern, Quantity, Sampling, Scene, Style, default_light};

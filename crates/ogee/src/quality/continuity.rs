@@ -9,7 +9,7 @@
 //!
 //! On the exact limit of a cage all four vanish away from creases; on what stands for it they say how well it does.
 
-use super::{Address, Field, Joint, Layout, Surface};
+use super::{Address, Field, Joint, Layout, NormalJet, Surface};
 use crate::limit::{Derivatives, LimitJet, Samples};
 use crate::math::{SurfaceJet, Vec3, par};
 use crate::patch::Location;
@@ -180,7 +180,7 @@ impl Measured {
 /// A vector along the level line of a field.
 fn line_tangent(point: &LimitJet, field: &Field) -> Option<Vec3> {
     let jet = &point.jet;
-    let field = field.jet(jet)?;
+    let field = field.jet(&NormalJet::of(jet)?)?;
     let along = field.du * jet.dv - field.dv * jet.du;
     let is_moving = along.length() > STILL * jet.du.cross(jet.dv).length();
     (is_moving && along.is_finite()).then_some(along)

@@ -12,6 +12,8 @@ pub struct Square {
     pub corner: Location,
     /// The lengths of its sides in the parameters of the face.
     pub size: [f64; 2],
+    /// Which of its sides lie on an edge of the cage, or on the border of a patch.
+    pub edges: [bool; 4],
 }
 
 impl Square {
@@ -107,6 +109,13 @@ impl Layout {
     pub fn across(&self, side: Side) -> Option<Side> {
         let [first, second] = self.joints[self.joint_of(side)?].sides;
         Some(if first == side { second } else { first })
+    }
+
+    /// The point at `x` on a side as the square across sees it; `None` on the border of the surface.
+    #[inline]
+    pub fn cross(&self, side: Side, x: f64) -> Option<(u32, [f64; 2])> {
+        let Side { square, side } = self.across(side)?;
+        Some((square, side_point(side, 1.0 - x)))
     }
 
     /// The sides without a neighbour, in order.

@@ -59,10 +59,19 @@ fn layout(level: &Level, table: &PatchTable) -> Layout {
             located.expect("a visible face has its parameters")
         };
         match (size, cut) {
-            (4, false) => squares.push(Square { corner: corner(None), size: [1.0; 2] }),
-            (4, true) => squares
-                .extend(QUARTERS.map(|[u, v]| Square { corner: corner(None).clamped(u, v), size: [0.5; 2] })),
-            _ => squares.extend((0..size).map(|k| Square { corner: corner(Some(k)), size: [1.0; 2] })),
+            (4, false) => {
+                squares.push(Square { corner: corner(None), size: [1.0; 2], edges: [true; 4] });
+            }
+            (4, true) => squares.extend((0..4).map(|k| {
+                let [u, v] = QUARTERS[k];
+                let edges = [0, 1, 2, 3].map(|side| side == k || side == (k + 3) % 4);
+                Square { corner: corner(None).clamped(u, v), size: [0.5; 2], edges }
+            })),
+            _ => squares.extend((0..size).map(|k| Square {
+                corner: corner(Some(k)),
+                size: [1.0; 2],
+                edges: [true, false, false, true],
+            })),
         }
     }
     let sides = Sides { topology, firsts, cut };

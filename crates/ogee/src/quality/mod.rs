@@ -19,8 +19,8 @@ pub use extraordinary::{
 pub use layout::{Joint, Layout, Side, Square};
 pub use limit_view::LimitView;
 pub use patch_view::{PatchView, PatchViewError};
-pub use reflection::{Field, FieldJet, Hit, HitJet, PlaneLight, Ray, Viewer};
-pub use report::{Report, ReportOptions, bounding_box};
+pub use reflection::{Field, FieldJet, Hit, HitJet, NormalJet, PlaneLight, Ray, Viewer};
+pub use report::{Report, ReportOptions};
 pub use statistics::{Bend, CurvatureStatistics, Distribution, Histogram};
 
 use crate::limit::{Derivatives, Samples};

@@ -49,7 +49,8 @@ impl PatchView {
             for i in 0..cells.rows() {
                 for j in 0..cells.cols() {
                     let (u, v) = (i as f64 * size[0], j as f64 * size[1]);
-                    squares.push(Square { corner: Location { root: number, u, v }, size });
+                    let edges = [j == 0, i + 1 == cells.rows(), j + 1 == cells.cols(), i == 0];
+                    squares.push(Square { corner: Location { root: number, u, v }, size, edges });
                 }
             }
         }

@@ -28,6 +28,31 @@ pub enum Ray {
     Normal,
 }
 
+/// Position and unit normal with their derivatives: all that rays depend on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NormalJet {
+    /// Position.
+    pub position: Vec3,
+    /// Derivatives of the position along `u` and `v`.
+    pub tangents: [Vec3; 2],
+    /// Unit normal.
+    pub normal: Vec3,
+    /// Derivatives of the normal along `u` and `v`.
+    pub turns: [Vec3; 2],
+}
+
+impl NormalJet {
+    /// From derivatives of a surface; `None` where it has no normal or no curvature.
+    pub fn of(jet: &SurfaceJet) -> Option<NormalJet> {
+        Some(NormalJet {
+            position: jet.position,
+            tangents: [jet.du, jet.dv],
+            normal: jet.normal()?,
+            turns: jet.normal_derivatives()?,
+        })
+    }
+}
+
 /// A plane that carries a pattern of light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaneLight {
@@ -84,14 +109,15 @@ impl Viewer {
     }
 
     /// The reflected ray and its derivatives.
-    fn reflected_jet(&self, jet: &SurfaceJet, normal: Vec3, bend: [Vec3; 2]) -> [Vec3; 3] {
-        let (view, nearness) = self.direction(jet.position);
+    fn reflected_jet(&self, jet: &NormalJet) -> [Vec3; 3] {
+        let NormalJet { position, tangents, normal, turns } = *jet;
+        let (view, nearness) = self.direction(position);
         let facing = view.dot(normal);
         let along = |tangent: Vec3, turn: Vec3| {
             let swing = nearness * (tangent - view.dot(tangent) * view);
             swing - 2.0 * ((swing.dot(normal) + view.dot(turn)) * normal + facing * turn)
         };
-        [view - 2.0 * facing * normal, along(jet.du, bend[0]), along(jet.dv, bend[1])]
+        [view - 2.0 * facing * normal, along(tangents[0], turns[0]), along(tangents[1], turns[1])]
     }
 }
 
@@ -124,13 +150,11 @@ impl PlaneLight {
         (meets && at[0].abs() <= self.half[0] && at[1].abs() <= self.half[1]).then_some(Hit { at, distance })
     }
 
-    /// Where the ray of a point meets the plane, with derivatives; `None` if it misses it, and where the surface has no
-    /// normal or no curvature.
-    pub fn hit_jet(&self, ray: Ray, viewer: &Viewer, jet: &SurfaceJet) -> Option<HitJet> {
-        let (normal, bend) = (jet.normal()?, jet.normal_derivatives()?);
+    /// Where the ray of a point meets the plane, with derivatives; `None` if it misses it.
+    pub fn hit_jet(&self, ray: Ray, viewer: &Viewer, jet: &NormalJet) -> Option<HitJet> {
         let [direction, turn_u, turn_v] = match ray {
-            Ray::Reflected => viewer.reflected_jet(jet, normal, bend),
-            Ray::Normal => [normal, bend[0], bend[1]],
+            Ray::Reflected => viewer.reflected_jet(jet),
+            Ray::Normal => [jet.normal, jet.turns[0], jet.turns[1]],
         };
         let hit = self.meet(jet.position, direction)?;
         let plane = self.normal();
@@ -140,7 +164,7 @@ impl PlaneLight {
             let in_plane = moved - (moved.dot(plane) / descent) * direction;
             self.axes.map(|axis| in_plane.dot(axis))
         };
-        Some(HitJet { hit, du: along(jet.du, turn_u), dv: along(jet.dv, turn_v) })
+        Some(HitJet { hit, du: along(jet.tangents[0], turn_u), dv: along(jet.tangents[1], turn_v) })
     }
 }
 
@@ -197,19 +221,19 @@ impl Field {
     }
 
     /// Its value and derivatives; `None` where it has none.
-    pub fn jet(&self, jet: &SurfaceJet) -> Option<FieldJet> {
+    pub fn jet(&self, jet: &NormalJet) -> Option<FieldJet> {
         match self {
             Field::Plane { light, viewer, ray, axis } => {
                 let HitJet { hit, du, dv } = light.hit_jet(*ray, viewer, jet)?;
                 Some(FieldJet { value: hit.at[*axis], du: du[*axis], dv: dv[*axis] })
             }
             Field::Isophote { light } => {
-                let [du, dv] = jet.normal_derivatives()?;
-                Some(FieldJet { value: jet.normal()?.dot(*light), du: du.dot(*light), dv: dv.dot(*light) })
+                let [du, dv] = jet.turns.map(|turn| turn.dot(*light));
+                Some(FieldJet { value: jet.normal.dot(*light), du, dv })
             }
             Field::Zebra { viewer, axis } => {
-                let [r, du, dv] = viewer.reflected_jet(jet, jet.normal()?, jet.normal_derivatives()?);
-                Some(FieldJet { value: r.dot(*axis), du: du.dot(*axis), dv: dv.dot(*axis) })
+                let [value, du, dv] = viewer.reflected_jet(jet).map(|vector| vector.dot(*axis));
+                Some(FieldJet { value, du, dv })
             }
         }
     }
@@ -234,6 +258,10 @@ mod tests {
         }
     }
 
+    fn normal_jet(x: f64, y: f64) -> NormalJet {
+        NormalJet::of(&sphere(x, y)).unwrap()
+    }
+
     fn ceiling(height: f64) -> PlaneLight {
         PlaneLight {
             centre: Vec3::new(0.1, -0.2, height),
@@ -246,7 +274,7 @@ mod tests {
     fn a_sphere_stretches_what_it_reflects_by_its_curvature() {
         // At normal incidence and height h the plane moves by 1 - 2 h k along a principal direction; here k = -1.
         let viewer = Viewer::Parallel(Vec3::new(0.0, 0.0, -1.0));
-        let jet = ceiling(4.0).hit_jet(Ray::Reflected, &viewer, &sphere(0.0, 0.0)).unwrap();
+        let jet = ceiling(4.0).hit_jet(Ray::Reflected, &viewer, &normal_jet(0.0, 0.0)).unwrap();
         assert!((jet.du[0] - 7.0).abs() < 1e-12 && (jet.dv[1] - 7.0).abs() < 1e-12, "{jet:?}");
         assert!(jet.du[1].abs() < 1e-12 && jet.dv[0].abs() < 1e-12);
     }
@@ -268,7 +296,7 @@ mod tests {
                 let jet = sphere(x, y);
                 field.value(jet.position, jet.normal().unwrap()).unwrap()
             };
-            let jet = field.jet(&sphere(x, y)).unwrap();
+            let jet = field.jet(&normal_jet(x, y)).unwrap();
             let du = (at(x + h, y) - at(x - h, y)) / (2.0 * h);
             let dv = (at(x, y + h) - at(x, y - h)) / (2.0 * h);
             let size = 1.0 + du.abs() + dv.abs();

@@ -75,7 +75,7 @@ impl Report {
 }
 
 /// The box of a surface by samples, five along each side of a square; `None` if it has no face or a point is not finite.
-pub fn bounding_box(surface: &dyn Surface) -> Option<[Vec3; 2]> {
+fn bounding_box(surface: &dyn Surface) -> Option<[Vec3; 2]> {
     /// Squares that are sampled at once.
     const BLOCK: usize = 1024;
     const STEPS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];

@@ -1,0 +1,126 @@
+//! Curvature combs: hairs along the normal, as long as the curve bends.
+//!
+//! The curves are those in the middle of faces and those between them. A hair stands where the curve bends away from the
+//! outside, and points inward where it bends the other way.
+
+use ogee::quality::{Square, Surface};
+use ogee::{Derivatives, Location, Samples, SurfaceJet, Vec3};
+
+use crate::View;
+use crate::colour::{Colour, decode, mix};
+use crate::pattern::line;
+use crate::raster::Fragment;
+use crate::render::bounding_box;
+
+/// Hairs along a curve across a square.
+const HAIRS: usize = 24;
+
+/// Draws combs over a picture. What lies behind the surface is left out.
+pub(crate) fn draw(
+    surface: &dyn Surface,
+    view: &View,
+    scale: f64,
+    shown: &[Fragment],
+    colours: &mut [Colour],
+) {
+    let [lower, upper] = bounding_box(surface);
+    let diagonal = upper.distance(lower);
+    let mut depths = vec![f64::INFINITY; colours.len()];
+    for fragment in shown {
+        depths[fragment.pixel as usize] = fragment.depth;
+    }
+    let mut canvas = Canvas { view, depths, colours, slack: 4e-3 * diagonal };
+    let (hair, tip) = ([40, 90, 160].map(linear), [190, 40, 30].map(linear));
+    for square in surface.layout().squares() {
+        for (along, is_edge) in [(0, square.edges[0]), (1, square.edges[3])] {
+            for across in [0.0, 0.5] {
+                if across == 0.0 && !is_edge {
+                    continue;
+                }
+                let hairs = hairs(surface, square, along, across, scale * diagonal * diagonal);
+                for pair in hairs.windows(2) {
+                    canvas.line(pair[0][1], pair[1][1], tip, 1.2);
+                }
+                for [root, end] in hairs {
+                    canvas.line(root, end, hair, 0.7);
+                }
+            }
+        }
+    }
+}
+
+fn linear(byte: u8) -> f32 {
+    decode(f32::from(byte) / 255.0)
+}
+
+/// Roots and ends of hairs along one parameter of a square at a value of the other.
+fn hairs(surface: &dyn Surface, square: &Square, along: usize, across: f64, scale: f64) -> Vec<[Vec3; 2]> {
+    let at: Vec<Location> = (0..=HAIRS)
+        .map(|i| i as f64 / HAIRS as f64)
+        .map(|x| if along == 0 { square.at(x, across) } else { square.at(across, x) })
+        .collect();
+    let mut samples = Samples::default();
+    surface.evaluate(&at, Derivatives::Second, &mut samples);
+    let hair = |i: usize| {
+        let (position, normal) = (samples.position[i], samples.normal[i]);
+        let jet = SurfaceJet {
+            position,
+            du: samples.du[i],
+            dv: samples.dv[i],
+            duu: samples.duu[i],
+            duv: samples.duv[i],
+            dvv: samples.dvv[i],
+        };
+        let direction = if along == 0 { jet.du } else { jet.dv };
+        // Negative where the surface bends away from its normal; hairs stand outside there.
+        let bend = jet.normal_curvature(normal, direction)?;
+        Some([position, position - scale * bend * normal])
+    };
+    (0..at.len()).filter_map(hair).filter(|[_, end]| end.is_finite()).collect()
+}
+
+/// A picture that lines are drawn into.
+struct Canvas<'a> {
+    view: &'a View,
+    depths: Vec<f64>,
+    colours: &'a mut [Colour],
+    /// Lines this far behind the surface are still seen: their roots lie on it.
+    slack: f64,
+}
+
+impl Canvas<'_> {
+    fn line(&mut self, a: Vec3, b: Vec3, colour: Colour, width: f64) {
+        let (p, q) = (self.view.to_camera(a), self.view.to_camera(b));
+        if !self.view.is_parallel && (p.z <= 0.0 || q.z <= 0.0) {
+            return;
+        }
+        let ([x0, y0], [x1, y1]) = (self.view.pixel(p), self.view.pixel(q));
+        let (dx, dy) = (x1 - x0, y1 - y0);
+        let length = dx.hypot(dy);
+        if !length.is_finite() {
+            return;
+        }
+        let [wide, high] = self.view.size.map(f64::from);
+        let reach = width + 1.0;
+        let range = |a: f64, b: f64, size: f64| {
+            let first = (a.min(b) - reach).floor().clamp(0.0, size) as u32;
+            first..(a.max(b) + reach).ceil().clamp(0.0, size) as u32
+        };
+        for y in range(y0, y1, high) {
+            for x in range(x0, x1, wide) {
+                let (px, py) = (f64::from(x) + 0.5 - x0, f64::from(y) + 0.5 - y0);
+                let part = if length > 0.0 {
+                    ((px * dx + py * dy) / (length * length)).clamp(0.0, 1.0)
+                } else {
+                    0.0
+                };
+                let distance = (px - part * dx).hypot(py - part * dy);
+                let cover = line(distance, width) as f32;
+                let pixel = (y * self.view.size[0] + x) as usize;
+                if cover > 0.0 && p.z + part * (q.z - p.z) <= self.depths[pixel] + self.slack {
+                    self.colours[pixel] = mix(self.colours[pixel], colour, cover);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,501 @@
+//! `render`: a surface and a scene become a picture.
+
+use std::time::Instant;
+
+use ogee::quality::{Layout, Ray, Surface};
+use ogee::{Derivatives, Flags, Location, Samples, SurfaceJet, Vec3};
+use rayon::prelude::*;
+
+use crate::colour::{Colour, encode};
+use crate::comb;
+use crate::polygon::Polygon;
+use crate::raster::{Fragment, fragments};
+use crate::shade::{self, Footprint, Point};
+use crate::solve::{Spot, solve};
+use crate::{Camera, Image, Quantity, Sampling, Scene, Style, View};
+
+/// A picture in linear colours, and how it was made.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// Width and height.
+    pub size: [u32; 2],
+    /// Linear colours, row by row from the top left.
+    pub colours: Vec<Colour>,
+    /// Pixels that show the surface.
+    pub fragments: usize,
+    /// The level of the mesh that said what each pixel shows.
+    pub level: u32,
+    /// Where the colours of a map end.
+    pub limit: Option<f64>,
+    /// How long each stage took.
+    pub seconds: Stages,
+}
+
+/// Seconds of wall time.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Stages {
+    /// Points of the mesh, and which face and parameters each pixel shows.
+    pub ids: f64,
+    /// Points of the surface.
+    pub position: f64,
+    /// Colours.
+    pub colour: f64,
+}
+
+/// Why there is no picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RenderError {
+    /// A side of no pixels.
+    #[error("a picture of {width} x {height} pixels has none; give both sides at least 1")]
+    EmptySize {
+        /// Its width.
+        width: u32,
+        /// Its height.
+        height: u32,
+    },
+    /// More pixels than memory is meant for.
+    #[error("a picture of {width} x {height} pixels is too large; {most} pixels are the most")]
+    TooLarge {
+        /// Its width.
+        width: u32,
+        /// Its height.
+        height: u32,
+        /// The most pixels.
+        most: u64,
+    },
+    /// Nothing can be projected.
+    #[error(
+        "the camera shows nothing: the eye must differ from what it looks at, up must not be along the view, and the angle of view must be between 0 and 180 degrees"
+    )]
+    BadCamera,
+    /// A closed surface hides all.
+    #[error("the eye is inside the surface; move it away")]
+    EyeInside,
+    /// All of it is beside the picture or behind the eye.
+    #[error("no part of the surface is in the picture; move the eye or what it looks at")]
+    EmptyView,
+    /// No pattern to be seen.
+    #[error("no ray from the visible surface meets the light plane; move it to where rays go, or turn it")]
+    LightMissed,
+    /// A mesh has no curvature.
+    #[error("a mesh of facets has no curvature; maps of it want exact points")]
+    CurvatureOfPolygon,
+    /// A mesh finer than memory is meant for.
+    #[error("a mesh of level {level} has more faces than {most}")]
+    TooFine {
+        /// The level.
+        level: u32,
+        /// The most faces.
+        most: usize,
+    },
+}
+
+impl RenderError {
+    /// A stable name in snake case.
+    pub fn code(&self) -> &'static str {
+        match self {
+            RenderError::EmptySize { .. } => "empty_size",
+            RenderError::TooLarge { .. } => "picture_too_large",
+            RenderError::BadCamera => "bad_camera",
+            RenderError::EyeInside => "eye_inside",
+            RenderError::EmptyView => "empty_view",
+            RenderError::LightMissed => "light_missed",
+            RenderError::CurvatureOfPolygon => "curvature_of_polygon",
+            RenderError::TooFine { .. } => "mesh_too_fine",
+        }
+    }
+}
+
+/// Pixels of a picture, at most.
+pub const MOST_PIXELS: u64 = 1 << 28;
+
+/// Faces of a mesh that was asked for, at most.
+const MOST_FACES: usize = 1 << 24;
+
+/// Fragments that one task evaluates at a time.
+const CHUNK: usize = 4096;
+
+/// Where colours of a displacement end, in pixels.
+pub const DISPLACEMENT: f64 = 8.0;
+
+/// Makes a picture, on all cores.
+///
+/// # Errors
+/// If it would show nothing, or nothing of what was asked for.
+pub fn render(surface: &dyn Surface, scene: &Scene) -> Result<Picture, RenderError> {
+    let view = check(surface, scene)?;
+    let start = Instant::now();
+    let polygon = polygon(surface, scene, &view)?;
+    let shown = fragments(&polygon, &view);
+    if shown.is_empty() {
+        return Err(RenderError::EmptyView);
+    }
+    let mut seconds = Stages { ids: start.elapsed().as_secs_f64(), ..Stages::default() };
+    let pixels = scene.size[0] as usize * scene.size[1] as usize;
+    let mut picture = Picture {
+        size: scene.size,
+        colours: vec![shade::palette::BACKGROUND; pixels],
+        fragments: shown.len(),
+        level: polygon.cells.trailing_zeros(),
+        limit: None,
+        seconds,
+    };
+    // Side by side, pixels of one face are evaluated together.
+    let mut shown = shown;
+    shown.par_chunks_mut(16 * CHUNK).for_each(|chunk| chunk.sort_unstable_by_key(|f| (f.place, f.pixel)));
+    let start = Instant::now();
+    let painter = Painter { surface, scene, view, polygon: &polygon };
+    let looked: Vec<Looked> = shown.par_chunks(CHUNK).map(|chunk| painter.look(chunk)).collect();
+    seconds.position = start.elapsed().as_secs_f64();
+    let start = Instant::now();
+    picture.limit = painter.limit(&looked);
+    let is_missed = looked.iter().all(|looked| looked.hits == 0);
+    if is_missed
+        && matches!(scene.style, Style::Reflection { .. } | Style::Highlight { .. } | Style::Error { .. })
+    {
+        return Err(RenderError::LightMissed);
+    }
+    for (chunk, looked) in shown.chunks(CHUNK).zip(&looked) {
+        for (fragment, look) in chunk.iter().zip(&looked.looks) {
+            picture.colours[fragment.pixel as usize] = painter.colour(look, picture.limit);
+        }
+    }
+    if let Style::Combs { scale } = scene.style {
+        comb::draw(surface, &view, scale, &shown, &mut picture.colours);
+    }
+    seconds.colour = start.elapsed().as_secs_f64();
+    picture.seconds = seconds;
+    Ok(picture)
+}
+
+/// What can be known before the first point.
+fn check(surface: &dyn Surface, scene: &Scene) -> Result<View, RenderError> {
+    let [width, height] = scene.size;
+    if width == 0 || height == 0 {
+        return Err(RenderError::EmptySize { width, height });
+    }
+    if u64::from(width) * u64::from(height) > MOST_PIXELS {
+        return Err(RenderError::TooLarge { width, height, most: MOST_PIXELS });
+    }
+    if matches!((&scene.style, scene.sampling), (Style::Curvature { .. }, Sampling::Polygon(_))) {
+        return Err(RenderError::CurvatureOfPolygon);
+    }
+    let view = scene.camera.view(scene.size).ok_or(RenderError::BadCamera)?;
+    if !view.is_parallel && is_inside(surface, scene.camera.eye) {
+        return Err(RenderError::EyeInside);
+    }
+    Ok(view)
+}
+
+/// True if a closed surface is around a point: by the solid angle of a mesh of it.
+fn is_inside(surface: &dyn Surface, eye: Vec3) -> bool {
+    let layout = surface.layout();
+    if layout.border().next().is_some() {
+        return false;
+    }
+    let all: Vec<u32> = (0..layout.squares().len() as u32).collect();
+    let mesh = Polygon::new(surface, &all, 1, false);
+    let (lower, upper) =
+        mesh.points.iter().fold((eye, eye), |(lower, upper), &p| (lower.min(p), upper.max(p)));
+    let within = |low: f64, x: f64, high: f64| low < x && x < high;
+    if !(within(lower.x, eye.x, upper.x)
+        && within(lower.y, eye.y, upper.y)
+        && within(lower.z, eye.z, upper.z))
+    {
+        return false;
+    }
+    let mut angle = 0.0;
+    for place in 0..mesh.squares.len() {
+        let grid = mesh.grid(place);
+        for k in [0, 1, 3, 4] {
+            for [a, b, c] in [[k, k + 1, k + 4], [k, k + 4, k + 3]] {
+                let [a, b, c] = [grid[a] - eye, grid[b] - eye, grid[c] - eye];
+                let (la, lb, lc) = (a.length(), b.length(), c.length());
+                let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+                angle += 2.0 * a.dot(b.cross(c)).atan2(below);
+            }
+        }
+    }
+    angle.abs() > 2.0 * std::f64::consts::PI
+}
+
+fn polygon(surface: &dyn Surface, scene: &Scene, view: &View) -> Result<Polygon, RenderError> {
+    let level = match (&scene.style, scene.sampling) {
+        (Style::Error { level, .. }, _) => *level,
+        (_, Sampling::Parameters(level) | Sampling::Polygon(level)) => level,
+        (_, Sampling::Exact) => return Ok(Polygon::for_view(surface, view)),
+    };
+    polygon_of_level(surface, level)
+}
+
+/// The mesh with the points of the cage refined `level` times, moved to the limit, and their normals.
+pub(crate) fn polygon_of_level(surface: &dyn Surface, level: u32) -> Result<Polygon, RenderError> {
+    let squares = surface.layout().squares();
+    // Where squares are halves of faces, one step is taken already.
+    let steps = if is_cut(surface.layout()) { level.saturating_sub(1) } else { level };
+    if steps > 15 || squares.len() << (2 * steps) > MOST_FACES {
+        return Err(RenderError::TooFine { level, most: MOST_FACES });
+    }
+    let all: Vec<u32> = (0..squares.len() as u32).collect();
+    Ok(Polygon::new(surface, &all, steps, true))
+}
+
+fn is_cut(layout: &Layout) -> bool {
+    layout.squares().iter().any(|square| square.edges != [true; 4])
+}
+
+/// What is known of a pixel before the limits of maps are.
+struct Look {
+    point: Point,
+    pixel: Footprint,
+    square: u32,
+    at: [f64; 2],
+    /// The number that a map shows.
+    value: Option<f64>,
+}
+
+struct Looked {
+    looks: Vec<Look>,
+    /// How many rays met the light plane.
+    hits: usize,
+}
+
+struct Painter<'a> {
+    surface: &'a dyn Surface,
+    scene: &'a Scene,
+    view: View,
+    polygon: &'a Polygon,
+}
+
+impl Painter<'_> {
+    fn look(&self, chunk: &[Fragment]) -> Looked {
+        let mut spots: Vec<Spot> = chunk.iter().map(|fragment| self.spot(fragment)).collect();
+        let is_error = matches!(self.scene.style, Style::Error { .. });
+        if matches!(self.scene.sampling, Sampling::Exact) || is_error {
+            solve(self.surface, &self.view, &mut spots);
+        }
+        let points: Vec<Point> = match self.scene.sampling {
+            Sampling::Polygon(_) if !is_error => {
+                chunk.iter().map(|f| polygon_point(self.polygon, f)).collect()
+            }
+            _ => self.points(&spots),
+        };
+        let mut hits = 0;
+        let looks = spots
+            .iter()
+            .zip(chunk)
+            .zip(points)
+            .map(|((spot, fragment), point)| {
+                let value = self.value(fragment, &point);
+                if self.meets_light(&point) {
+                    hits += 1;
+                }
+                Look {
+                    point,
+                    pixel: Footprint::new(&self.view, &point),
+                    square: spot.square,
+                    at: spot.at,
+                    value,
+                }
+            })
+            .collect();
+        Looked { looks, hits }
+    }
+
+    fn spot(&self, fragment: &Fragment) -> Spot {
+        let width = self.view.size[0];
+        let pixel = [fragment.pixel % width, fragment.pixel / width].map(|x| f64::from(x) + 0.5);
+        Spot { pixel, square: self.polygon.squares[fragment.place as usize], at: fragment.at }
+    }
+
+    /// Points of the surface itself.
+    fn points(&self, spots: &[Spot]) -> Vec<Point> {
+        let squares = self.surface.layout().squares();
+        let at: Vec<Location> =
+            spots.iter().map(|spot| squares[spot.square as usize].at(spot.at[0], spot.at[1])).collect();
+        let bends = !matches!(self.scene.style, Style::Shaded | Style::Wireframe | Style::Combs { .. });
+        let what = if bends { Derivatives::Second } else { Derivatives::First };
+        let mut samples = Samples::default();
+        self.surface.evaluate(&at, what, &mut samples);
+        (0..at.len())
+            .map(|i| {
+                let (position, normal) = (samples.position[i], samples.normal[i]);
+                let tangents = [samples.du[i], samples.dv[i]];
+                let flags = samples.flags[i];
+                let is_bent = bends
+                    && !flags.contains(Flags::AT_EXTRAORDINARY)
+                    && !flags.contains(Flags::NORMAL_UNDEFINED);
+                let jet = is_bent.then(|| SurfaceJet {
+                    position,
+                    du: tangents[0],
+                    dv: tangents[1],
+                    duu: samples.duu[i],
+                    duv: samples.duv[i],
+                    dvv: samples.dvv[i],
+                });
+                let is_map = matches!(self.scene.style, Style::Curvature { .. });
+                Point {
+                    position,
+                    tangents,
+                    normal,
+                    turns: jet.as_ref().filter(|_| !is_map).and_then(SurfaceJet::normal_derivatives),
+                    curvature: jet.as_ref().filter(|_| is_map).and_then(SurfaceJet::curvature),
+                }
+            })
+            .collect()
+    }
+
+    fn meets_light(&self, point: &Point) -> bool {
+        let ray = match self.scene.style {
+            Style::Highlight { .. } => Ray::Normal,
+            _ => Ray::Reflected,
+        };
+        match &self.scene.style {
+            Style::Reflection { light, .. } | Style::Highlight { light, .. } | Style::Error { light, .. } => {
+                light.hit(ray, &self.view.viewer(), point.position, point.normal).is_some()
+            }
+            _ => true,
+        }
+    }
+
+    /// The number that a map shows.
+    fn value(&self, fragment: &Fragment, point: &Point) -> Option<f64> {
+        match &self.scene.style {
+            Style::Curvature { quantity, .. } => shade::curvature(*quantity, point),
+            Style::Error { light, .. } => {
+                let viewer = self.view.viewer();
+                let other = polygon_point(self.polygon, fragment);
+                let seen = light.hit(Ray::Reflected, &viewer, other.position, other.normal)?;
+                let exact =
+                    shade::normal_jet(point).and_then(|jet| light.hit_jet(Ray::Reflected, &viewer, &jet))?;
+                let pixel = Footprint::new(&self.view, point);
+                Some(pixel.distance(seen.at[0] - exact.hit.at[0], exact.du[0], exact.dv[0]))
+            }
+            _ => None,
+        }
+    }
+
+    /// Where the colours of a map end.
+    fn limit(&self, looked: &[Looked]) -> Option<f64> {
+        match self.scene.style {
+            Style::Curvature { limit: Some(limit), .. } => Some(limit),
+            Style::Error { .. } => Some(DISPLACEMENT),
+            Style::Curvature { quantity, limit: None } => {
+                let looks = looked.iter().flat_map(|looked| &looked.looks);
+                let mut sizes: Vec<f64> = looks.filter_map(|look| look.value).map(f64::abs).collect();
+                if quantity == Quantity::GaussSign {
+                    return sizes.into_iter().reduce(f64::max);
+                }
+                sizes.sort_unstable_by(f64::total_cmp);
+                let last = sizes.len().checked_sub(1)?;
+                Some(sizes[(0.95 * last as f64) as usize])
+            }
+            _ => None,
+        }
+    }
+
+    fn colour(&self, look: &Look, limit: Option<f64>) -> Colour {
+        let Look { point, pixel, square, at, value } = look;
+        let view = &self.view;
+        let mapped = |colour| shade::on_body(view, point.position, point.normal, colour);
+        match &self.scene.style {
+            Style::Shaded | Style::Combs { .. } => shade::body(view, point.position, point.normal),
+            Style::Wireframe => {
+                let square = &self.surface.layout().squares()[*square as usize];
+                let at = [at[0] * square.size[0], at[1] * square.size[1]];
+                shade::wire(view, at, square.size, square.edges, point, pixel)
+            }
+            Style::Reflection { light, pattern } => {
+                shade::lit(view, light, Ray::Reflected, pattern, point, pixel)
+            }
+            Style::Highlight { light, pattern } => {
+                shade::lit(view, light, Ray::Normal, pattern, point, pixel)
+            }
+            Style::Isophote { light, step } => shade::isophote(view, *light, *step, point, pixel),
+            Style::Zebra { axis, count } => shade::zebra(view, *axis, *count, point, pixel),
+            Style::Curvature { quantity, .. } => {
+                mapped(shade::map(*quantity, *value, limit.unwrap_or_default()))
+            }
+            Style::Error { .. } => mapped(shade::displacement(*value, limit.unwrap_or(DISPLACEMENT))),
+        }
+    }
+}
+
+/// A point of the mesh itself: position and normal interpolated over its triangle.
+pub(crate) fn polygon_point(polygon: &Polygon, fragment: &Fragment) -> Point {
+    let n = polygon.cells as usize;
+    let scale = n as f64;
+    let [s, t] = fragment.at.map(|x| x * scale);
+    let (i, j) = ((s as usize).min(n - 1), (t as usize).min(n - 1));
+    let (x, y) = (s - i as f64, t - j as f64);
+    let first = i + (n + 1) * j;
+    let [a, b, c, d] = [first, first + 1, first + n + 2, first + n + 1];
+    // The two triangles of a cell meet from its first corner to its third.
+    let (points, normals) =
+        (polygon.grid(fragment.place as usize), polygon.grid_normals(fragment.place as usize));
+    let slopes = |list: &[Vec3]| {
+        if x >= y { [list[b] - list[a], list[c] - list[b]] } else { [list[c] - list[d], list[d] - list[a]] }
+    };
+    let [du, dv] = slopes(points);
+    let [nu, nv] = slopes(normals);
+    let mean = normals[a] + x * nu + y * nv;
+    let length = mean.length();
+    let normal = mean.normalized().unwrap_or_default();
+    let turn = |slope: Vec3| (slope - normal.dot(slope) * normal) / length;
+    Point {
+        position: points[a] + x * du + y * dv,
+        tangents: [scale * du, scale * dv],
+        normal,
+        turns: (length > 0.0).then(|| [scale * turn(nu), scale * turn(nv)]),
+        curvature: None,
+    }
+}
+
+impl Picture {
+    /// As many pixels in one, along both sides; linear light is averaged. Pixels that are left over are dropped.
+    #[must_use]
+    pub fn reduced(&self, times: u32) -> Picture {
+        let size = self.size.map(|side| side / times);
+        let one = |x: u32, y: u32| -> Colour {
+            let mut sum = [0.0; 3];
+            for j in 0..times {
+                for i in 0..times {
+                    let colour = self.colours[((y * times + j) * self.size[0] + x * times + i) as usize];
+                    (0..3).for_each(|k| sum[k] += colour[k].clamp(0.0, 1.0));
+                }
+            }
+            sum.map(|x| x / (times * times) as f32)
+        };
+        let colours =
+            (0..size[1]).into_par_iter().flat_map_iter(|y| (0..size[0]).map(move |x| one(x, y))).collect();
+        Picture { size, colours, ..self.clone() }
+    }
+
+    /// As screens and files want it.
+    pub fn image(&self) -> Image {
+        let bytes = |colour: &Colour| {
+            let [red, green, blue] = colour.map(|x| (255.0 * encode(x) + 0.5) as u8);
+            [red, green, blue, 255]
+        };
+        Image { size: self.size, pixels: self.colours.par_iter().flat_map_iter(bytes).collect() }
+    }
+}
+
+/// The box around a surface, from a mesh of it.
+pub fn bounding_box(surface: &dyn Surface) -> [Vec3; 2] {
+    let all: Vec<u32> = (0..surface.layout().squares().len() as u32).collect();
+    let mesh = Polygon::new(surface, &all, 2, false);
+    let first = mesh.points.first().copied().unwrap_or_default();
+    let (lower, upper) =
+        mesh.points.iter().fold((first, first), |(lower, upper), &p| (lower.min(p), upper.max(p)));
+    [lower, upper]
+}
+
+impl Scene {
+    /// A shaded picture from a three-quarter view in which the surface fits.
+    pub fn of(surface: &dyn Surface, size: [u32; 2]) -> Scene {
+        let camera = Camera::fit(bounding_box(surface), size);
+        Scene { camera, size, style: Style::Shaded, sampling: Sampling::Exact }
+    }
+}
