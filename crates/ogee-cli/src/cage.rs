@@ -53,18 +53,30 @@ pub(crate) struct Cage {
 impl CageArguments {
     /// Reads the cage and applies the rules that were asked for.
     pub(crate) fn read(&self) -> Result<Cage, Failure> {
-        self.open()?.cage()
+        let start = Instant::now();
+        let (name, format, bytes) = self.load()?;
+        let cage = self.parse(name, format, &bytes)?;
+        Ok(Cage { seconds: start.elapsed().as_secs_f64(), ..cage })
     }
 
-    /// Reads the bytes of the file.
-    pub(crate) fn open(&self) -> Result<Opened<'_>, Failure> {
-        let start = Instant::now();
+    /// The name, the format and the bytes of the file.
+    pub(crate) fn load(&self) -> Result<(String, CageFormat, Vec<u8>), Failure> {
         if self.is_stdin() && self.input_format.is_none() {
             return Err(Failure::usage("reading from stdin wants --input-format"));
         }
         let format = CageFormat::of(self.input_format, &self.cage).map_err(Failure::usage)?;
         let (name, bytes) = read_bytes(&self.cage)?;
-        Ok(Opened { arguments: self, name, bytes, format, start })
+        Ok((name, format, bytes))
+    }
+
+    /// The cage in these bytes, with the rules that were asked for.
+    pub(crate) fn parse(&self, name: String, format: CageFormat, bytes: &[u8]) -> Result<Cage, Failure> {
+        let start = Instant::now();
+        let mut file = read_cage(bytes, format).map_err(|error| Failure::of_reading(&error, &name))?;
+        let scheme = &mut file.mesh.scheme;
+        scheme.boundary = self.boundary.unwrap_or(scheme.boundary);
+        scheme.creasing = self.creasing.unwrap_or(scheme.creasing);
+        Ok(Cage { name, file, seconds: start.elapsed().as_secs_f64() })
     }
 
     /// True if the cage comes from stdin.
@@ -78,31 +90,6 @@ impl CageArguments {
             Some(stem) if stem != "-" => stem.to_string_lossy().into_owned(),
             _ => "cage".to_owned(),
         }
-    }
-}
-
-/// A file whose bytes are there.
-pub(crate) struct Opened<'a> {
-    arguments: &'a CageArguments,
-    /// The file's name in messages.
-    pub(crate) name: String,
-    /// What is in it.
-    pub(crate) bytes: Vec<u8>,
-    /// Its format.
-    pub(crate) format: CageFormat,
-    /// When reading began.
-    pub(crate) start: Instant,
-}
-
-impl Opened<'_> {
-    /// Takes it for a cage, with the rules that were asked for.
-    pub(crate) fn cage(self) -> Result<Cage, Failure> {
-        let Opened { arguments, name, bytes, format, start } = self;
-        let mut file = read_cage(&bytes, format).map_err(|error| Failure::of_reading(&error, &name))?;
-        let scheme = &mut file.mesh.scheme;
-        scheme.boundary = arguments.boundary.unwrap_or(scheme.boundary);
-        scheme.creasing = arguments.creasing.unwrap_or(scheme.creasing);
-        Ok(Cage { name, file, seconds: start.elapsed().as_secs_f64() })
     }
 }
 

@@ -14,6 +14,7 @@
 //! | `report` | figures as text and as JSON |
 //! | `progress` | a spinner for long work |
 //! | `timestamp` | the time that is written into files |
+//! | `view` | options of cameras and lights |
 //! | `system` | what the machine has and what was used of it |
 
 mod addresses;
@@ -27,8 +28,10 @@ mod names;
 mod output;
 mod progress;
 mod report;
+mod subject;
 mod system;
 mod timestamp;
+mod view;
 
 use std::ffi::OsString;
 use std::process::ExitCode;

@@ -285,7 +285,7 @@ fn what_this_build_does_not_have_is_said() {
         "eval cube.obj --uniform 2 -o a.csv --lens c1",
         "network cube.obj",
         "lens cube.obj",
-        "render cube.obj",
+        "render cube.obj -o a.png --device gpu",
         "lines cube.obj",
         "batch plan",
         "view",

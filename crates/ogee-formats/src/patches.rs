@@ -10,7 +10,6 @@ use std::io::{self, BufWriter, Write};
 use ogee::convert::Part;
 use ogee::nurbs::{FaceAddress, KnotVector, NurbsSurface, ShellFace};
 use ogee::{FaceId, Grid, Vec3};
-use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use crate::finite::require_finite;
@@ -110,15 +109,6 @@ pub fn read(text: &[u8]) -> Result<Vec<Patch>, PatchesError> {
             patch(record).map_err(|reason| PatchesError::Patch { patch: i, reason: reason.to_owned() })
         })
         .collect()
-}
-
-/// True for JSON with patches in it, good or bad; a cage has none.
-pub fn is_patches(text: &[u8]) -> bool {
-    #[derive(Deserialize)]
-    struct File {
-        patches: Option<IgnoredAny>,
-    }
-    serde_json::from_slice(text).is_ok_and(|file: File| file.patches.is_some())
 }
 
 fn record(face: &ShellFace) -> Record {

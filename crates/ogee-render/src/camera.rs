@@ -32,20 +32,34 @@ pub struct Camera {
 }
 
 /// Angle of view unless another is asked for, in degrees: little distortion, still some depth.
-pub(crate) const ANGLE: f64 = 30.0;
+pub const ANGLE: f64 = 30.0;
+
+/// From the right, the front and above.
+pub const THREE_QUARTER: Vec3 = Vec3::new(0.55, -0.7, 0.46);
+
+/// The corners of a box.
+fn corners([lower, upper]: [Vec3; 2]) -> [Vec3; 8] {
+    std::array::from_fn(|corner| {
+        let pick = |bit: usize, a: f64, b: f64| if corner >> bit & 1 == 0 { a } else { b };
+        Vec3::new(pick(0, lower.x, upper.x), pick(1, lower.y, upper.y), pick(2, lower.z, upper.z))
+    })
+}
 
 impl Camera {
     /// A three-quarter view from the front, the right and above, with `z` up, in which a box fits into a picture of
     /// `size` pixels.
-    pub fn fit([lower, upper]: [Vec3; 2], size: [u32; 2]) -> Camera {
-        Camera::fit_from(Vec3::new(0.55, -0.7, 0.46), [lower, upper], ANGLE, size)
+    pub fn fit(bounds: [Vec3; 2], size: [u32; 2]) -> Camera {
+        Camera::fit_from(THREE_QUARTER, &corners(bounds), ANGLE, size)
     }
 
-    /// The view towards a box from a direction, so near that its corners just fit.
-    pub fn fit_from(direction: Vec3, [lower, upper]: [Vec3; 2], angle: f64, size: [u32; 2]) -> Camera {
+    /// The view from a direction, so near that all of the points just fit.
+    pub fn fit_from(direction: Vec3, points: &[Vec3], angle: f64, size: [u32; 2]) -> Camera {
         /// Of the picture is left free on each side.
-        const MARGIN: f64 = 0.06;
-        let at = 0.5 * (lower + upper);
+        const MARGIN: f64 = 0.04;
+        let first = points.first().copied().unwrap_or_default();
+        let (lower, upper) =
+            points.iter().fold((first, first), |(lower, upper), &p| (lower.min(p), upper.max(p)));
+        let middle = 0.5 * (lower + upper);
         let direction = direction.normalized().unwrap_or(Vec3::new(0.0, -1.0, 0.0));
         let up = if direction.x.hypot(direction.y) > 1e-6 {
             Vec3::new(0.0, 0.0, 1.0)
@@ -54,23 +68,22 @@ impl Camera {
         };
         let right = up.cross(direction).normalized().unwrap_or(Vec3::new(1.0, 0.0, 0.0));
         let upward = direction.cross(right);
-        let tangent = (angle.to_radians() / 2.0).tan();
+        let tangent = (angle.to_radians() / 2.0).tan() * (1.0 - 2.0 * MARGIN);
         let aspect = f64::from(size[0]) / f64::from(size[1].max(1));
-        let (wide, high) = (tangent * aspect * (1.0 - 2.0 * MARGIN), tangent * (1.0 - 2.0 * MARGIN));
-        let mut distance: f64 = 0.0;
-        for corner in 0..8 {
-            let pick = |bit: u32, a: f64, b: f64| if corner >> bit & 1 == 0 { a } else { b };
-            let offset = Vec3::new(
-                pick(0, lower.x, upper.x) - at.x,
-                pick(1, lower.y, upper.y) - at.y,
-                pick(2, lower.z, upper.z) - at.z,
-            );
-            let needed = (offset.dot(right).abs() / wide).max(offset.dot(upward).abs() / high);
-            distance = distance.max(needed + offset.dot(direction));
-        }
-        if distance <= 0.0 {
-            distance = 1.0;
-        }
+        // Each side of the picture is a plane through the eye; the farthest point beyond each says where it goes.
+        let reach = |axis: Vec3, tangent: f64| {
+            let beyond = |axis: Vec3| {
+                let reaches =
+                    points.iter().map(|&p| (p - middle).dot(axis) + tangent * (p - middle).dot(direction));
+                reaches.fold(f64::NEG_INFINITY, f64::max)
+            };
+            let (plus, minus) = (beyond(axis), beyond(-axis));
+            (0.5 * (plus - minus), 0.5 * (plus + minus) / tangent)
+        };
+        let ((across, wide), (along, high)) = (reach(right, tangent * aspect), reach(upward, tangent));
+        let at = middle + across * right + along * upward;
+        // A little more than nothing, for a single point.
+        let distance = wide.max(high).max(1e-9 * (1.0 + middle.length()));
         Camera { eye: at + distance * direction, at, up, projection: Projection::Perspective { angle } }
     }
 
@@ -160,13 +173,7 @@ mod tests {
         for size in [[700, 700], [300, 900], [900, 200]] {
             let view = Camera::fit([lower, upper], size).view(size).unwrap();
             let (mut least, mut greatest) = ([f64::MAX; 2], [f64::MIN; 2]);
-            for corner in 0..8 {
-                let pick = |bit: u32, a: f64, b: f64| if corner >> bit & 1 == 0 { a } else { b };
-                let point = Vec3::new(
-                    pick(0, lower.x, upper.x),
-                    pick(1, lower.y, upper.y),
-                    pick(2, lower.z, upper.z),
-                );
+            for point in corners([lower, upper]) {
                 let pixel = view.pixel(view.to_camera(point));
                 for k in 0..2 {
                     least[k] = least[k].min(pixel[k]);
@@ -177,8 +184,8 @@ mod tests {
                 let size = f64::from(size[k]);
                 least[k].min(size - greatest[k]) / size
             };
-            assert!(free(0) > 0.05 && free(1) > 0.05);
-            assert!(free(0).min(free(1)) < 0.061, "{} {}", free(0), free(1));
+            assert!(free(0) > 0.039 && free(1) > 0.039);
+            assert!(free(0).min(free(1)) < 0.041, "{} {}", free(0), free(1));
         }
     }
 

@@ -100,14 +100,17 @@ impl Canvas<'_> {
         if !length.is_finite() {
             return;
         }
-        let [wide, high] = self.view.size.map(f64::from);
-        let reach = width + 1.0;
-        let range = |a: f64, b: f64, size: f64| {
-            let first = (a.min(b) - reach).floor().clamp(0.0, size) as u32;
-            first..(a.max(b) + reach).ceil().clamp(0.0, size) as u32
-        };
-        for y in range(y0, y1, high) {
-            for x in range(x0, x1, wide) {
+        // Along the axis in which it is longer, a few pixels to either side.
+        let (main, other) = if dx.abs() >= dy.abs() { (0, 1) } else { (1, 0) };
+        let (start, end, delta) = ([x0, y0], [x1, y1], [dx, dy]);
+        let reach = 1.5 * (width + 1.0);
+        let clipped = |x: f64, axis: usize| x.clamp(0.0, f64::from(self.view.size[axis])) as u32;
+        let (first, last) = (start[main].min(end[main]) - reach, start[main].max(end[main]) + reach);
+        for i in clipped(first, main)..clipped(last.ceil(), main) {
+            let along = ((f64::from(i) + 0.5 - start[main]) / delta[main]).clamp(0.0, 1.0);
+            let middle = start[other] + if delta[main] == 0.0 { 0.0 } else { along * delta[other] };
+            for j in clipped(middle - reach, other)..clipped((middle + reach).ceil(), other) {
+                let (x, y) = if main == 0 { (i, j) } else { (j, i) };
                 let (px, py) = (f64::from(x) + 0.5 - x0, f64::from(y) + 0.5 - y0);
                 let part = if length > 0.0 {
                     ((px * dx + py * dy) / (length * length)).clamp(0.0, 1.0)

@@ -10,7 +10,7 @@
 //! | `render` | [`render`]: the passes, [`Picture`] |
 //! | `polygon`, `raster` | [`Polygon`], [`Fragment`]: which face and parameters a pixel shows |
 //! | `solve` | from there to the point that the pixel shows exactly |
-//! | `comb` | combs |
+//! | `comb`, `legend` | combs; the scale of a map |
 //! | `camera` | [`Camera`], [`View`]: where a point is in the picture |
 //! | `style` | [`Scene`], [`Style`], [`Pattern`]: what is shown |
 //! | [`pattern`], [`colour`], [`shade`] | how bright, which colour: functions with twins in shaders |
@@ -20,6 +20,7 @@ mod camera;
 pub mod colour;
 mod comb;
 mod image;
+mod legend;
 pub mod pattern;
 mod polygon;
 mod raster;
@@ -28,9 +29,9 @@ pub mod shade;
 mod solve;
 mod style;
 
-pub use camera::{Camera, Projection, View};
+pub use camera::{ANGLE, Camera, Projection, THREE_QUARTER, View};
 pub use image::{Image, ImageError, Light};
 pub use polygon::Polygon;
 pub use raster::Fragment;
-pub use render::{DISPLACEMENT, MOST_PIXELS, Picture, RenderError, Stages, bounding_box, render};
+pub use render::{DISPLACEMENT, MOST_PIXELS, Picture, RenderError, Stages, bounding_box, outline, render};
 pub use style::{Pattern, Quantity, Sampling, Scene, Style, default_light};

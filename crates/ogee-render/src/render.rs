@@ -6,6 +6,7 @@ use ogee::quality::{Layout, Ray, Surface};
 use ogee::{Derivatives, Flags, Location, Samples, SurfaceJet, Vec3};
 use rayon::prelude::*;
 
+use crate::camera::{ANGLE, THREE_QUARTER};
 use crate::colour::{Colour, encode};
 use crate::comb;
 use crate::polygon::Polygon;
@@ -482,20 +483,25 @@ impl Picture {
     }
 }
 
-/// The box around a surface, from a mesh of it.
-pub fn bounding_box(surface: &dyn Surface) -> [Vec3; 2] {
+/// Points of a surface: those of a mesh with four cells along a side of each square.
+pub fn outline(surface: &dyn Surface) -> Vec<Vec3> {
     let all: Vec<u32> = (0..surface.layout().squares().len() as u32).collect();
-    let mesh = Polygon::new(surface, &all, 2, false);
-    let first = mesh.points.first().copied().unwrap_or_default();
+    Polygon::new(surface, &all, 2, false).points
+}
+
+/// The box around a surface, to about what a mesh of it says.
+pub fn bounding_box(surface: &dyn Surface) -> [Vec3; 2] {
+    let points = outline(surface);
+    let first = points.first().copied().unwrap_or_default();
     let (lower, upper) =
-        mesh.points.iter().fold((first, first), |(lower, upper), &p| (lower.min(p), upper.max(p)));
+        points.iter().fold((first, first), |(lower, upper), &p| (lower.min(p), upper.max(p)));
     [lower, upper]
 }
 
 impl Scene {
     /// A shaded picture from a three-quarter view in which the surface fits.
     pub fn of(surface: &dyn Surface, size: [u32; 2]) -> Scene {
-        let camera = Camera::fit(bounding_box(surface), size);
+        let camera = Camera::fit_from(THREE_QUARTER, &outline(surface), ANGLE, size);
         Scene { camera, size, style: Style::Shaded, sampling: Sampling::Exact }
     }
 }

@@ -5,17 +5,16 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::Args;
-use ogee::quality::{Field, LimitView, PatchView, Ray, Report as Measured, ReportOptions, Surface};
-use ogee::{ControlMesh, Level, LimitSurface, PatchTable};
-use ogee_formats::{CageFormat, patches};
-use ogee_render::{Camera, bounding_box, default_light};
+use ogee::quality::{Field, Ray, Report as Measured, ReportOptions, Surface, Viewer};
+use ogee_render::{Camera, default_light};
 use serde::Serialize;
 
-use crate::cage::{CageArguments, Opened};
+use crate::cage::{Cage, CageArguments};
 use crate::error::{Exit, Failure, Finding};
 use crate::inspection::{Figures, table};
 use crate::output::Destination;
 use crate::report::{Console, bytes, count, figure};
+use crate::subject::Subject;
 use crate::system;
 
 const EXAMPLES: &str = "\
@@ -85,123 +84,44 @@ struct Seconds {
     measure: f64,
 }
 
-/// What is measured, and how long it took to have it.
-struct Subject<'a> {
-    surface: &'a dyn Surface,
-    name: &'a str,
-    /// Faces of the cage, or patches.
-    faces: usize,
-    /// The cage, if it is the limit of one.
-    mesh: Option<&'a ControlMesh>,
-    notes: Vec<Finding>,
-    read: f64,
-    prepare: f64,
-}
-
 impl Inspect {
     pub(crate) fn run(&self, console: &Console) -> Result<ExitCode, Failure> {
         let html = self.html.as_deref().map(Destination::new);
         if console.json && html == Some(Destination::Stdout) {
             return Err(Failure::usage("--html - and --json both want stdout; give the page a name"));
         }
-        let opened = self.cage.open()?;
+        let progress = console.progress();
+        progress.step("reading");
+        let subject = Subject::read(&self.cage)?;
+        let crease_angle = self.crease_angle(&subject)?;
         if let Some(html) = &html {
             html.check()?;
         }
-        if opened.format == CageFormat::Json && patches::is_patches(&opened.bytes) {
-            self.patches(opened, console)
-        } else {
-            self.limit(opened, console)
-        }
-    }
 
-    /// The limit of a cage.
-    fn limit(&self, opened: Opened<'_>, console: &Console) -> Result<ExitCode, Failure> {
-        let cage = opened.cage()?;
-        let start = Instant::now();
-        let mesh = cage.mesh();
-        let level = Level::new(mesh).map_err(|error| cage.refused(&error.defects))?;
-        let table = PatchTable::new(&level);
-        let limit = LimitSurface::new(&table, &mesh.points);
-        let view = LimitView::new(&level, &limit);
-        let mut notes = cage.warnings();
-        notes.extend(ogee::mesh::notes(mesh).iter().map(Finding::of_note));
-        self.measure(
-            Subject {
-                surface: &view,
-                name: &cage.name,
-                faces: mesh.faces.len(),
-                mesh: Some(mesh),
-                notes,
-                read: cage.seconds,
-                prepare: start.elapsed().as_secs_f64(),
-            },
-            console,
-        )
-    }
-
-    /// The patches of a part.
-    fn patches(&self, opened: Opened<'_>, console: &Console) -> Result<ExitCode, Failure> {
-        let Opened { name, bytes, start, .. } = opened;
-        if self.cage.boundary.is_some() || self.cage.creasing.is_some() {
-            return Err(Failure::usage(format!("{name} has patches: --boundary and --creasing are for cages")));
-        }
-        let refused = |code, message: String| Failure::refused(vec![Finding::in_file(code, message, &name)], 0);
-        let patches = patches::read(&bytes).map_err(|error| refused(error.code(), error.to_string()))?;
-        let (read, start) = (start.elapsed().as_secs_f64(), Instant::now());
-        let faces = patches.len();
-        let pieces = patches.into_iter().map(|patch| (patch.surface, patch.quads)).collect();
-        let view = PatchView::new(pieces).map_err(|error| refused("bad_patch", error.to_string()))?;
-        let prepare = start.elapsed().as_secs_f64();
-        let subject =
-            Subject { surface: &view, name: &name, faces, mesh: None, notes: Vec::new(), read, prepare };
-        self.measure(subject, console)
-    }
-
-    fn measure(&self, subject: Subject<'_>, console: &Console) -> Result<ExitCode, Failure> {
-        let Subject { surface, name, faces, mesh, mut notes, read, prepare } = subject;
-        let crease_angle = self.crease_angle.or(mesh.is_none().then_some(CREASE_ANGLE));
-        if let (Some(crease), Some(max)) = (crease_angle, self.max_angle)
-            && max >= crease
-        {
-            return Err(Failure::usage(format!(
-                "--max-angle {max} would never fail: joints that bend by {crease} degrees or more count as creases; say \
-                 --crease-angle"
-            )));
-        }
-        let progress = console.progress();
         progress.step("measuring");
         let start = Instant::now();
-        let box_of_all = bounding_box(surface);
-        let (camera, light) = (Camera::fit(box_of_all, VIEW), default_light(box_of_all));
-        let viewer = ogee::quality::Viewer::Eye(camera.eye);
-        let field = Field::Plane { light, viewer, ray: Ray::Reflected, axis: 0 };
-        let options = ReportOptions { crease_angle, ..ReportOptions::new(field) };
-        let measured = Measured::new(surface, &options).ok_or_else(|| {
-            let message = "there is no face whose points are finite";
-            Failure::refused(vec![Finding::in_file("no_surface", message, name)], 0)
-        })?;
-        let figures = Figures::new(&measured, faces, mesh);
-        let seconds = Seconds { read, prepare, measure: start.elapsed().as_secs_f64() };
+        let (figures, lines) = subject.look(|surface| measure(&subject, surface, crease_angle))?;
+        let seconds = Seconds {
+            read: subject.read_seconds,
+            prepare: subject.prepare_seconds,
+            measure: start.elapsed().as_secs_f64(),
+        };
         drop(progress);
 
+        let mut notes = subject.notes();
         let creases = figures.continuity.sharp.joints;
         if let Some(angle) = crease_angle.filter(|_| creases > 0) {
             let joints = count(creases, "joint bends", "joints bend");
-            let message = format!("{joints} by {} degrees or more, and counts as a crease", figure(angle));
-            notes.push(Finding::in_file("creases_by_angle", message, name));
+            let message = format!("{joints} by {} degrees or more: taken for creases", figure(angle));
+            notes.push(Finding::in_file("creases_by_angle", message, &subject.name));
         }
-        let smooth = &figures.continuity.smooth.angle_deg;
-        let passed = self.max_angle.map(|limit| smooth.max <= limit);
+        let largest = figures.continuity.smooth.angle_deg.max;
+        let excess = self.max_angle.filter(|&limit| largest > limit);
         let report = Report {
             figures: &figures,
-            lines: Lines {
-                eye: camera.eye.into(),
-                light_centre: light.centre.into(),
-                light_axis: light.axes[0].into(),
-            },
+            lines,
             max_angle_deg: self.max_angle,
-            passed,
+            passed: self.max_angle.map(|_| excess.is_none()),
             seconds,
             peak_bytes: system::peak_memory(),
             notes: &notes,
@@ -213,16 +133,49 @@ impl Inspect {
         if let Some(peak) = report.peak_bytes.filter(|_| console.is_verbose()) {
             rows.row("memory", bytes(peak));
         }
-        console.table(name, &rows, &notes);
+        console.table(&subject.name, &rows, &notes);
         console.json(&report)?;
-        match (passed, self.max_angle) {
-            (Some(false), Some(limit)) => {
-                let (found, limit) = (figure(smooth.max), figure(limit));
-                let message = format!("two faces meet at {found} degrees where there is no crease; {limit} is allowed");
-                console.findings(&[Finding::in_file("angle_too_large", message, name)]);
-                Ok(ExitCode::from(Exit::Check as u8))
-            }
-            _ => Ok(ExitCode::SUCCESS),
+        let Some(limit) = excess else { return Ok(ExitCode::SUCCESS) };
+        let (found, limit) = (figure(largest), figure(limit));
+        let message = format!("two faces meet at {found} degrees where there is no crease; {limit} is allowed");
+        console.findings(&[Finding::in_file("angle_too_large", message, &subject.name)]);
+        Ok(ExitCode::from(Exit::Check as u8))
+    }
+
+    /// From which angle on joints count as creases, where that is not for the cage to say.
+    fn crease_angle(&self, subject: &Subject) -> Result<Option<f64>, Failure> {
+        if subject.cage().is_none() && (self.cage.boundary.is_some() || self.cage.creasing.is_some()) {
+            let name = &subject.name;
+            return Err(Failure::usage(format!("{name} has patches: --boundary and --creasing are for cages")));
+        }
+        let crease_angle = self.crease_angle.or(subject.cage().is_none().then_some(CREASE_ANGLE));
+        match (self.max_angle, crease_angle) {
+            (Some(max), Some(crease)) if max >= crease => Err(Failure::usage(format!(
+                "--max-angle {max} can never be exceeded: joints that bend by {crease} degrees or more count as \
+                 creases; raise --crease-angle"
+            ))),
+            _ => Ok(crease_angle),
         }
     }
+}
+
+/// The figures of a surface, under the usual light seen by the usual eye.
+fn measure(
+    subject: &Subject,
+    surface: &dyn Surface,
+    crease_angle: Option<f64>,
+) -> Result<(Figures, Lines), Failure> {
+    let bounds = subject.bounds(surface)?;
+    let (camera, light) = (Camera::fit(bounds, VIEW), default_light(bounds));
+    let field = Field::Plane { light, viewer: Viewer::Eye(camera.eye), ray: Ray::Reflected, axis: 0 };
+    let options = ReportOptions { crease_angle, ..ReportOptions::new(field) };
+    let measured = Measured::new(surface, &options)
+        .ok_or_else(|| subject.failure("no_surface", "there is no face whose points are finite"))?;
+    let mesh = subject.cage().map(Cage::mesh);
+    let lines = Lines {
+        eye: camera.eye.into(),
+        light_centre: light.centre.into(),
+        light_axis: light.axes[0].into(),
+    };
+    Ok((Figures::new(&measured, subject.faces(), mesh), lines))
 }

@@ -8,6 +8,7 @@ pub(crate) mod info;
 pub(crate) mod inspect;
 mod man;
 pub(crate) mod refine;
+pub(crate) mod render;
 
 use std::process::ExitCode;
 
@@ -23,6 +24,7 @@ pub(crate) fn run(command: &Command, console: &Console) -> Result<ExitCode, Fail
         Command::Eval(eval) => eval.run(console),
         Command::Convert(convert) => convert.run(console),
         Command::Inspect(inspect) => inspect.run(console),
+        Command::Render(render) => render.run(console),
         Command::Check(check) => check.run(console),
         Command::Completions(completions) => completions.run(console),
         Command::Man => man::run(console),

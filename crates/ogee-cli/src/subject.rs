@@ -1,0 +1,118 @@
+//! What a command looks at: the limit surface of a cage, or the patches of a part.
+
+use std::time::Instant;
+
+use ogee::quality::{LimitView, PatchView, Surface};
+use ogee::{Level, LimitSurface, PatchTable, Vec3};
+use ogee_formats::CageFormat;
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+
+use crate::cage::{Cage, CageArguments};
+use crate::error::{Failure, Finding};
+
+/// A surface to look at, and the file it came from.
+pub(crate) struct Subject {
+    /// The file's name in messages.
+    pub(crate) name: String,
+    kind: Kind,
+    /// How long reading took.
+    pub(crate) read_seconds: f64,
+    /// How long connectivity and tables took.
+    pub(crate) prepare_seconds: f64,
+}
+
+enum Kind {
+    Cage { cage: Box<Cage>, level: Box<Level>, table: Box<PatchTable> },
+    Patches(Box<PatchView>),
+}
+
+/// True if a text is a part in JSON and no cage.
+fn is_part(bytes: &[u8]) -> bool {
+    #[derive(Deserialize)]
+    struct Probe {
+        #[serde(rename = "patches")]
+        _patches: IgnoredAny,
+    }
+    serde_json::from_slice::<Probe>(bytes).is_ok()
+}
+
+impl Subject {
+    /// Reads a cage, or a part in JSON.
+    pub(crate) fn read(arguments: &CageArguments) -> Result<Subject, Failure> {
+        let start = Instant::now();
+        let (name, format, bytes) = arguments.load()?;
+        if format == CageFormat::Json && is_part(&bytes) {
+            let refused =
+                |code, message: String| Failure::refused(vec![Finding::in_file(code, message, &name)], 0);
+            let patches = ogee_formats::patches::read(&bytes)
+                .map_err(|error| refused(error.code(), error.to_string()))?;
+            let read_seconds = start.elapsed().as_secs_f64();
+            let start = Instant::now();
+            let patches = patches.into_iter().map(|patch| (patch.surface, patch.quads)).collect();
+            let view = PatchView::new(patches).map_err(|error| refused("no_surface", error.to_string()))?;
+            let prepare_seconds = start.elapsed().as_secs_f64();
+            return Ok(Subject { name, kind: Kind::Patches(Box::new(view)), read_seconds, prepare_seconds });
+        }
+        let cage = arguments.parse(name, format, &bytes)?;
+        let read_seconds = start.elapsed().as_secs_f64();
+        let start = Instant::now();
+        let level = Level::new(cage.mesh()).map_err(|error| cage.refused(&error.defects))?;
+        let table = PatchTable::new(&level);
+        if !(0..table.len()).any(|face| table.is_visible(face)) {
+            return Err(cage.failure("no_surface", "no face of the cage is part of the surface"));
+        }
+        let prepare_seconds = start.elapsed().as_secs_f64();
+        let name = cage.name.clone();
+        let kind = Kind::Cage { cage: Box::new(cage), level: Box::new(level), table: Box::new(table) };
+        Ok(Subject { name, kind, read_seconds, prepare_seconds })
+    }
+
+    /// The cage, if it is one.
+    pub(crate) fn cage(&self) -> Option<&Cage> {
+        match &self.kind {
+            Kind::Cage { cage, .. } => Some(cage),
+            Kind::Patches(_) => None,
+        }
+    }
+
+    /// How many faces the cage has, or how many patches there are.
+    pub(crate) fn faces(&self) -> usize {
+        match &self.kind {
+            Kind::Cage { cage, .. } => cage.mesh().faces.len(),
+            Kind::Patches(view) => view.patches().len(),
+        }
+    }
+
+    /// Lets somebody look at the surface.
+    pub(crate) fn look<T>(&self, look: impl FnOnce(&dyn Surface) -> T) -> T {
+        match &self.kind {
+            Kind::Cage { cage, level, table } => {
+                let surface = LimitSurface::new(table, &cage.mesh().points);
+                look(&LimitView::new(level, &surface))
+            }
+            Kind::Patches(view) => look(view.as_ref()),
+        }
+    }
+
+    /// What the reader passed over, and what else is worth knowing.
+    pub(crate) fn notes(&self) -> Vec<Finding> {
+        self.cage().map_or_else(Vec::new, |cage| {
+            let mut notes = cage.warnings();
+            notes.extend(ogee::mesh::notes(cage.mesh()).iter().map(Finding::of_note));
+            notes
+        })
+    }
+
+    /// A refusal of what is looked at as a whole.
+    pub(crate) fn failure(&self, code: &'static str, message: impl Into<String>) -> Failure {
+        Failure::refused(vec![Finding::in_file(code, message, &self.name)], 0)
+    }
+
+    /// The box around the surface; a failure if it is not finite.
+    pub(crate) fn bounds(&self, surface: &dyn Surface) -> Result<[Vec3; 2], Failure> {
+        let bounds = ogee_render::bounding_box(surface);
+        let is_sound = bounds.iter().all(|corner| corner.is_finite()) && bounds[0] != bounds[1];
+        is_sound.then_some(bounds).ok_or_else(|| self.failure("no_size", "the surface has no size"))
+    }
+}

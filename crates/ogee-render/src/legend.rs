@@ -1,0 +1,141 @@
+//! What the colours of a map mean, written into its lower left corner.
+
+use embedded_graphics::mono_font::iso_8859_1::{FONT_7X13, FONT_10X20};
+use embedded_graphics::mono_font::{MonoFont, MonoTextStyle};
+use embedded_graphics::pixelcolor::Rgb888;
+use embedded_graphics::prelude::*;
+use embedded_graphics::text::{Alignment, Text};
+
+use crate::colour::{DIVERGING, RISING, along, encode};
+use crate::{Image, Quantity, Style};
+
+/// A picture as the library of letters sees it.
+struct Paper<'a>(&'a mut Image);
+
+impl OriginDimensions for Paper<'_> {
+    fn size(&self) -> Size {
+        Size::new(self.0.size[0], self.0.size[1])
+    }
+}
+
+impl DrawTarget for Paper<'_> {
+    type Color = Rgb888;
+    type Error = std::convert::Infallible;
+
+    fn draw_iter<I: IntoIterator<Item = Pixel<Rgb888>>>(&mut self, pixels: I) -> Result<(), Self::Error> {
+        let [width, height] = self.0.size;
+        for Pixel(Point { x, y }, colour) in pixels {
+            let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y)) else { continue };
+            if x < width && y < height {
+                let first = 4 * (y as usize * width as usize + x as usize);
+                self.0.pixels[first..first + 3].copy_from_slice(&[colour.r(), colour.g(), colour.b()]);
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Image {
+    /// Writes the scale of a map that ends at `limit` into the picture, if it is a map and there is room.
+    pub fn add_legend(&mut self, style: &Style, limit: f64) {
+        let (title, scale, marks) = match style {
+            Style::Curvature { quantity, .. } => {
+                let number = |x: f64| short(x * limit);
+                let both = vec![(0.0, number(-1.0)), (0.5, "0".to_owned()), (1.0, number(1.0))];
+                match quantity {
+                    Quantity::Gauss => ("Gauss curvature", &DIVERGING, both),
+                    Quantity::Mean => ("mean curvature", &DIVERGING, both),
+                    Quantity::K1 => ("larger principal curvature", &DIVERGING, both),
+                    Quantity::K2 => ("smaller principal curvature", &DIVERGING, both),
+                    Quantity::Greatest => {
+                        let marks = vec![(0.0, "0".to_owned()), (0.5, number(0.5)), (1.0, number(1.0))];
+                        ("greatest curvature", &RISING, marks)
+                    }
+                    Quantity::GaussSign => {
+                        let words = ["saddle", "flat", "bowl"].map(str::to_owned);
+                        let marks = [0.0, 0.5, 1.0].into_iter().zip(words).collect();
+                        ("sign of Gauss curvature", &DIVERGING, marks)
+                    }
+                }
+            }
+            Style::Error { .. } => {
+                let marks = vec![(0.0, "0".to_owned()), (0.5, short(0.5 * limit)), (1.0, short(limit))];
+                ("displacement of lines, pixels", &RISING, marks)
+            }
+            _ => return,
+        };
+        self.draw_scale(title, scale, &marks);
+    }
+
+    fn draw_scale(&mut self, title: &str, scale: &[[f32; 3]; 5], marks: &[(f32, String)]) {
+        let [width, height] = self.size.map(|side| side as i32);
+        // Small pictures get small letters, smaller ones none.
+        let (font, bar): (&MonoFont<'_>, [i32; 2]) = match width.min(height) {
+            900.. => (&FONT_10X20, [320, 16]),
+            300.. => (&FONT_7X13, [220, 11]),
+            _ => return,
+        };
+        let letter = font.character_size.height as i32;
+        let margin = 2 * letter;
+        let (left, top) = (margin, height - margin - bar[1] - letter);
+        let ink = MonoTextStyle::new(font, Rgb888::new(40, 46, 54));
+        let mut paper = Paper(self);
+        let text = |paper: &mut Paper<'_>, text: &str, x: i32, y: i32, alignment: Alignment| {
+            let Ok(_) = Text::with_alignment(text, Point::new(x, y), ink, alignment).draw(paper);
+        };
+        text(&mut paper, title, left, top - letter / 2, Alignment::Left);
+        for x in 0..bar[0] {
+            let colour =
+                along(scale, x as f32 / (bar[0] - 1) as f32).map(|x| (255.0 * encode(x) + 0.5) as u8);
+            let colour = Rgb888::new(colour[0], colour[1], colour[2]);
+            let Ok(()) = paper.draw_iter((0..bar[1]).map(|y| Pixel(Point::new(left + x, top + y), colour)));
+        }
+        for (place, mark) in marks {
+            let alignment = match *place {
+                0.0 => Alignment::Left,
+                1.0 => Alignment::Right,
+                _ => Alignment::Center,
+            };
+            let x = left + (place * (bar[0] - 1) as f32) as i32;
+            text(&mut paper, mark, x, top + bar[1] + letter, alignment);
+        }
+    }
+}
+
+/// Three digits.
+fn short(x: f64) -> String {
+    let size = x.abs();
+    if x == 0.0 {
+        "0".to_owned()
+    } else if (1e-3..1e4).contains(&size) {
+        let digits = (2 - size.log10().floor() as i32).max(0) as usize;
+        format!("{x:.digits$}")
+    } else {
+        format!("{x:.2e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_three_digits() {
+        for (x, text) in
+            [(0.0, "0"), (1.0, "1.00"), (-0.012345, "-0.0123"), (123.4, "123"), (5e-7, "5.00e-7")]
+        {
+            assert_eq!(short(x), text);
+        }
+    }
+
+    #[test]
+    fn maps_have_a_scale_and_others_have_none() {
+        let blank = Image::filled([320, 320], [255; 4]);
+        let mut map = blank.clone();
+        map.add_legend(&Style::Curvature { quantity: Quantity::Mean, limit: None }, 0.25);
+        assert_ne!(map, blank);
+        let mut shaded = blank.clone();
+        shaded.add_legend(&Style::Shaded, 0.25);
+        assert_eq!(shaded, blank);
+    }
+}
