@@ -1,17 +1,18 @@
 //! `ogee inspect`: figures on the quality of a limit surface or of patches.
 
+use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::Args;
-use ogee::quality::{Field, Ray, Report as Measured, ReportOptions, Surface, Viewer};
-use ogee_render::{Camera, default_light};
+use ogee::quality::{Field, PlaneLight, Ray, Report as Measured, ReportOptions, Surface, Viewer};
+use ogee_render::{ANGLE, Camera, THREE_QUARTER, default_light, outline};
 use serde::Serialize;
 
 use crate::cage::{Cage, CageArguments};
 use crate::error::{Exit, Failure, Finding};
-use crate::inspection::{Figures, table};
+use crate::inspection::{Figures, PICTURE, PageOf, table};
 use crate::output::Destination;
 use crate::report::{Console, bytes, count, figure};
 use crate::subject::Subject;
@@ -43,9 +44,6 @@ pub(crate) struct Inspect {
 
 /// Patches that meet at this angle or more, in degrees, are meant to: a fault is rarely as large, a crease rarely less.
 const CREASE_ANGLE: f64 = 10.0;
-
-/// Width and height of the view whose eye sees the reflection lines.
-const VIEW: [u32; 2] = [800, 600];
 
 /// An angle that faces can have.
 fn degrees(text: &str) -> Result<f64, String> {
@@ -82,6 +80,8 @@ struct Seconds {
     read: f64,
     prepare: f64,
     measure: f64,
+    /// If a page was made.
+    draw: Option<f64>,
 }
 
 impl Inspect {
@@ -100,14 +100,8 @@ impl Inspect {
 
         progress.step("measuring");
         let start = Instant::now();
-        let (figures, lines) = subject.look(|surface| measure(&subject, surface, crease_angle))?;
-        let seconds = Seconds {
-            read: subject.read_seconds,
-            prepare: subject.prepare_seconds,
-            measure: start.elapsed().as_secs_f64(),
-        };
-        drop(progress);
-
+        let (figures, light, lines) = subject.look(|surface| measure(&subject, surface, crease_angle))?;
+        let measure = start.elapsed().as_secs_f64();
         let mut notes = subject.notes();
         let creases = figures.continuity.sharp.joints;
         if let Some(angle) = crease_angle.filter(|_| creases > 0) {
@@ -117,6 +111,20 @@ impl Inspect {
         }
         let largest = figures.continuity.smooth.angle_deg.max;
         let excess = self.max_angle.filter(|&limit| largest > limit);
+        let start = Instant::now();
+        if let Some(html) = &html {
+            progress.step("drawing");
+            let page = PageOf { name: &subject.name, figures: &figures, max_angle: self.max_angle, light, notes: &notes };
+            let (text, fault) = subject.look(|surface| page.html(surface));
+            html.write(|out| out.write_all(text.as_bytes()))?;
+            notes.extend(fault.map(|fault| {
+                Finding::in_file(fault.code(), format!("the page has no pictures: {fault}"), &subject.name)
+            }));
+        }
+        let draw = html.is_some().then(|| start.elapsed().as_secs_f64());
+        drop(progress);
+
+        let seconds = Seconds { read: subject.read_seconds, prepare: subject.prepare_seconds, measure, draw };
         let report = Report {
             figures: &figures,
             lines,
@@ -127,9 +135,10 @@ impl Inspect {
             notes: &notes,
         };
         let mut rows = table(&figures, console.is_verbose());
-        let Seconds { read, prepare, measure } = seconds;
-        let parts = format!("read {read:.3}, prepare {prepare:.3}, measure {measure:.3}");
-        rows.row("seconds", format!("{:.3} ({parts})", read + prepare + measure));
+        let Seconds { read, prepare, .. } = seconds;
+        let drawing = draw.map(|draw| format!(", draw {draw:.3}")).unwrap_or_default();
+        let parts = format!("read {read:.3}, prepare {prepare:.3}, measure {measure:.3}{drawing}");
+        rows.row("seconds", format!("{:.3} ({parts})", read + prepare + measure + draw.unwrap_or_default()));
         if let Some(peak) = report.peak_bytes.filter(|_| console.is_verbose()) {
             rows.row("memory", bytes(peak));
         }
@@ -164,9 +173,10 @@ fn measure(
     subject: &Subject,
     surface: &dyn Surface,
     crease_angle: Option<f64>,
-) -> Result<(Figures, Lines), Failure> {
+) -> Result<(Figures, PlaneLight, Lines), Failure> {
     let bounds = subject.bounds(surface)?;
-    let (camera, light) = (Camera::fit(bounds, VIEW), default_light(bounds));
+    let camera = Camera::fit_from(THREE_QUARTER, &outline(surface), ANGLE, PICTURE);
+    let light = default_light(bounds);
     let field = Field::Plane { light, viewer: Viewer::Eye(camera.eye), ray: Ray::Reflected, axis: 0 };
     let options = ReportOptions { crease_angle, ..ReportOptions::new(field) };
     let measured = Measured::new(surface, &options)
@@ -177,5 +187,5 @@ fn measure(
         light_centre: light.centre.into(),
         light_axis: light.axes[0].into(),
     };
-    Ok((Figures::new(&measured, subject.faces(), mesh), lines))
+    Ok((Figures::new(&measured, subject.faces(), mesh), light, lines))
 }

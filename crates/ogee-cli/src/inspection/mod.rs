@@ -1,20 +1,62 @@
 //! Figures on the quality of a surface: as JSON, as a table, as a page.
+//!
+//! | file | holds |
+//! | --- | --- |
+//! | `figures` | [`Figures`]: names and shapes of the JSON report |
+//! | `verdict` | what a figure means |
+//! | `table` | the table |
+//! | `page`, `page.css` | the page of HTML |
+//! | `marks`, `pictures`, `chart` | what it points at, its pictures, its drawings |
 
+mod chart;
 pub(crate) mod figures;
+mod marks;
+mod page;
+mod pictures;
 mod table;
+mod verdict;
 
 pub(crate) use figures::Figures;
+pub(crate) use pictures::SIZE as PICTURE;
 pub(crate) use table::table;
 
 use ogee::ControlMesh;
-use ogee::quality::{Address, Sector};
+use ogee::quality::{Address, PlaneLight, Sector, Surface};
+use ogee_render::RenderError;
 
+use crate::error::Finding;
 use crate::report::figure;
+
+/// The page of HTML about a surface.
+pub(crate) struct PageOf<'a> {
+    /// The name of the file that was inspected.
+    pub(crate) name: &'a str,
+    pub(crate) figures: &'a Figures,
+    /// The largest angle that was allowed, if one was.
+    pub(crate) max_angle: Option<f64>,
+    /// What mirrors the lines whose kinks were measured.
+    pub(crate) light: PlaneLight,
+    pub(crate) notes: &'a [Finding],
+}
+
+impl PageOf<'_> {
+    /// The whole file; without pictures, and with the reason why, if there are none.
+    pub(crate) fn html(&self, surface: &dyn Surface) -> (String, Option<RenderError>) {
+        let marks = marks::marks(self.figures);
+        let drawn = pictures::pictures(surface, self.figures.size, self.light, &marks);
+        let (pictures, fault) = match drawn {
+            Ok(pictures) => (pictures, None),
+            Err(fault) => (Vec::new(), Some(fault)),
+        };
+        let PageOf { name, figures, max_angle, notes, .. } = *self;
+        (page::Page { name, figures, max_angle, marks: &marks, pictures: &pictures, notes }.html(), fault)
+    }
+}
 
 /// The vertex of the cage that a point is, if it is one.
 fn vertex_of(mesh: Option<&ControlMesh>, sector: &Sector) -> Option<u32> {
     let Address { face, corner, u, v } = sector.at;
-    let corners = mesh?.faces.iter().nth(face.index())?;
+    let corners = mesh?.faces.face(face.index());
     let at = match (corner, (u, v)) {
         (Some(corner), (0.0, 0.0)) => corner,
         (None, (0.0, 0.0)) => 0,
@@ -31,4 +73,45 @@ fn place(address: &figures::At) -> String {
     let figures::At { face, corner, u, v } = address;
     let corner = corner.map(|corner| format!(" corner {corner}")).unwrap_or_default();
     format!("face {face}{corner} at ({}, {})", figure(*u), figure(*v))
+}
+
+/// A number in HTML, with a minus sign and powers of ten as people write them.
+fn number(x: f64) -> String {
+    let text = figure(x).replace('-', "\u{2212}");
+    match text.split_once('e') {
+        Some((digits, power)) => format!("{digits} × 10<sup>{power}</sup>"),
+        None => text,
+    }
+}
+
+/// Text as HTML wants it.
+fn escape(text: &str) -> String {
+    let mut html = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '&' => html += "&amp;",
+            '<' => html += "&lt;",
+            '>' => html += "&gt;",
+            '"' => html += "&quot;",
+            '\'' => html += "&#39;",
+            letter => html.push(letter),
+        }
+    }
+    html
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_read_as_people_write_them() {
+        assert_eq!(number(-1.5e-12), "\u{2212}1.50 × 10<sup>\u{2212}12</sup>");
+        assert_eq!(number(0.25), "0.25");
+    }
+
+    #[test]
+    fn names_cannot_break_the_page() {
+        assert_eq!(escape("<a&\"b'>"), "&lt;a&amp;&quot;b&#39;&gt;");
+    }
 }

@@ -2,6 +2,7 @@
 
 use super::figures::{Figures, MetricFigures, Place, Radius};
 use super::place;
+use super::verdict::Verdict;
 use crate::report::{Table, count, figure};
 
 /// Points that are listed without `--verbose`.
@@ -27,9 +28,12 @@ pub(crate) fn table(figures: &Figures, verbose: bool) -> Table {
         ("curvature G2", &smooth.curvature_relative, ""),
         ("kink of lines", &smooth.kink_deg, " deg"),
     ];
-    for (label, found, unit) in rows.into_iter().filter(|(_, found, _)| found.samples > 0) {
+    let verdicts = Verdict::on(continuity, figures.size);
+    for ((label, found, unit), verdict) in rows.into_iter().zip(verdicts).filter(|(row, _)| row.1.samples > 0) {
         table.row(label, metric(found, unit));
-        for worst in found.worst.iter().take(if verbose { usize::MAX } else { 1 }) {
+        // Where rounding is largest interests nobody.
+        let listed = if verbose { usize::MAX } else { usize::from(verdict != Verdict::Exact) };
+        for worst in found.worst.iter().take(listed) {
             let beside = place(&worst.beside);
             table.row("", format!("{}{unit} on {}, beside {beside}", figure(worst.value), place(&worst.at)));
         }
