@@ -38,14 +38,15 @@ pub(super) fn histogram(spread: &Spread, label: &str) -> String {
     if bars.from < 0.0 && bars.to > 0.0 {
         let zero = x(0.0);
         let _ = write!(svg, "<line class=\"zero\" x1=\"{zero:.2}\" y1=\"0\" x2=\"{zero:.2}\" y2=\"120\"/>");
-        if (40.0..WIDTH - 40.0).contains(&zero) {
+        if (64.0..WIDTH - 64.0).contains(&zero) {
             let _ = write!(svg, "<text x=\"{zero:.2}\" y=\"138\" text-anchor=\"middle\">0</text>");
         }
     }
     let median = x(spread.p50);
     let _ = write!(svg, "<path class=\"median\" d=\"M{median:.2} 121l-4 6h8z\"/>");
     for (at, anchor, value) in [(0.0, "start", bars.from), (WIDTH, "end", bars.to)] {
-        let value = plain(value);
+        // Rounding is zero.
+        let value = number(if value.abs() < 1e-9 * (bars.to - bars.from) { 0.0 } else { value });
         let _ = write!(svg, "<text x=\"{at}\" y=\"138\" text-anchor=\"{anchor}\">{value}</text>");
     }
     svg + "</svg>"
@@ -119,9 +120,4 @@ pub(super) fn rings(point: &Point) -> String {
         let _ = write!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"1.8\"/>");
     }
     svg + "</svg>"
-}
-
-/// A number without markup, which drawings do not take.
-fn plain(x: f64) -> String {
-    crate::report::figure(x).replace('-', "\u{2212}")
 }

@@ -17,7 +17,7 @@ pub(super) struct Mark {
 pub(super) struct Remark {
     /// What it is.
     pub(super) what: &'static str,
-    /// Its value, in HTML.
+    /// Its value, with its unit.
     pub(super) value: String,
     /// Where it is, in terms of the cage.
     pub(super) place: String,
@@ -39,9 +39,9 @@ pub(super) fn marks(figures: &Figures) -> Vec<Mark> {
     let verdicts = Verdict::on(&figures.continuity, figures.size);
     let metrics = [
         ("gap", &smooth.gap, ""),
-        ("angle", &smooth.angle_deg, "°"),
+        ("angle", &smooth.angle_deg, " deg"),
         ("curvature gap", &smooth.curvature_relative, ""),
-        ("kink of lines", &smooth.kink_deg, "°"),
+        ("kink of lines", &smooth.kink_deg, " deg"),
     ];
     for ((what, metric, unit), _) in
         metrics.into_iter().zip(verdicts).filter(|(_, verdict)| *verdict != Verdict::Exact)
@@ -52,12 +52,12 @@ pub(super) fn marks(figures: &Figures) -> Vec<Mark> {
         }
     }
     for point in figures.extraordinary.without_plane.iter().take(EACH) {
-        let value = match point.cause {
-            "slow" => "settles slowly".to_owned(),
-            _ => format!("{}° apart", number(point.spread_deg)),
+        let (what, value) = match point.cause {
+            "slow" => ("normals settle slowly", String::new()),
+            _ => ("no tangent plane", format!("{} deg apart", number(point.spread_deg))),
         };
         let place = named(&point.place);
-        found.add(point.place.position, Remark { what: "no tangent plane", value, place });
+        found.add(point.place.position, Remark { what, value, place });
     }
     let radii = &figures.curvature.smallest_radius;
     for (what, radius) in [("smallest radius, concave", &radii.concave), ("smallest radius, convex", &radii.convex)]

@@ -25,7 +25,7 @@ use ogee::quality::{Address, PlaneLight, Sector, Surface};
 use ogee_render::RenderError;
 
 use crate::error::Finding;
-use crate::report::figure;
+use crate::report::rounded;
 
 /// The page of HTML about a surface.
 pub(crate) struct PageOf<'a> {
@@ -72,15 +72,41 @@ fn vertex_of(mesh: Option<&ControlMesh>, sector: &Sector) -> Option<u32> {
 fn place(address: &figures::At) -> String {
     let figures::At { face, corner, u, v } = address;
     let corner = corner.map(|corner| format!(" corner {corner}")).unwrap_or_default();
-    format!("face {face}{corner} at ({}, {})", figure(*u), figure(*v))
+    format!("face {face}{corner} at ({}, {})", rounded(*u, DIGITS), rounded(*v, DIGITS))
 }
 
-/// A number in HTML, with a minus sign and powers of ten as people write them.
+/// Digits that are read and not only looked at.
+const DIGITS: i32 = 4;
+
+/// A number as people write it: four digits, thousands apart, a minus sign, powers of ten. It does not break over lines.
 fn number(x: f64) -> String {
-    let text = figure(x).replace('-', "\u{2212}");
-    match text.split_once('e') {
-        Some((digits, power)) => format!("{digits} × 10<sup>{power}</sup>"),
-        None => text,
+    let text = rounded(x, DIGITS);
+    let (digits, power) = text.split_once('e').unwrap_or((&text, ""));
+    let (sign, digits) = digits.strip_prefix('-').map_or(("", digits), |digits| ("\u{2212}", digits));
+    let (whole, rest) = digits.split_at(digits.find('.').unwrap_or(digits.len()));
+    let mut number = sign.to_owned();
+    for (k, digit) in whole.chars().enumerate() {
+        if k > 0 && whole.len() > 4 && (whole.len() - k) % 3 == 0 {
+            number.push('\u{202f}');
+        }
+        number.push(digit);
+    }
+    number += rest;
+    if !power.is_empty() {
+        number += "\u{a0}×\u{a0}10";
+        number.extend(power.chars().map(superscript));
+    }
+    number
+}
+
+fn superscript(digit: char) -> char {
+    match digit {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        '0' | '4'..='9' => char::from_u32('⁰' as u32 + digit as u32 - '0' as u32).unwrap_or(digit),
+        other => other,
     }
 }
 
@@ -106,8 +132,17 @@ mod tests {
 
     #[test]
     fn numbers_read_as_people_write_them() {
-        assert_eq!(number(-1.5e-12), "\u{2212}1.50 × 10<sup>\u{2212}12</sup>");
-        assert_eq!(number(0.25), "0.25");
+        let cases = [
+            (0.25, "0.25"),
+            (117.6632, "117.7"),
+            (1234.5, "1234"),
+            (-56597.9, "\u{2212}56\u{202f}598"),
+            (-1.52e-12, "\u{2212}1.5\u{a0}×\u{a0}10⁻¹²"),
+            (4.06e15, "4.1\u{a0}×\u{a0}10¹⁵"),
+        ];
+        for (x, text) in cases {
+            assert_eq!(number(x), text);
+        }
     }
 
     #[test]

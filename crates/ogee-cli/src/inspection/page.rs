@@ -26,19 +26,21 @@ pub(super) struct Page<'a> {
 impl Page<'_> {
     /// The whole file.
     pub(super) fn html(&self) -> String {
+        let name = std::path::Path::new(self.name).file_name();
+        let name = escape(&name.map_or_else(|| self.name.into(), |name| name.to_string_lossy()));
         let sections =
-            [self.header(), self.cards(), self.views(), self.places(), self.curvature(), self.points(), self.notes()];
+            [self.header(&name), self.cards(), self.views(), self.places(), self.curvature(), self.points(), self.notes()];
         format!(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" \
              content=\"width=device-width, initial-scale=1\">\n<title>{} \u{2013} surface quality</title>\n<style>\n{}</style>\n\
              </head>\n<body>\n<main>\n{}</main>\n</body>\n</html>\n",
-            escape(self.name),
+            name,
             include_str!("page.css"),
             sections.concat()
         )
     }
 
-    fn header(&self) -> String {
+    fn header(&self, name: &str) -> String {
         let figures = self.figures;
         let what = match figures.kind {
             "cage" => {
@@ -58,14 +60,13 @@ impl Page<'_> {
             let (class, word) = if is_passed { ("exact", "Passed") } else { ("look", "Failed") };
             let [found, limit] = [figures.continuity.smooth.angle_deg.max, limit].map(number);
             format!(
-                "<p class=\"check {class}\"><b>{word}.</b> <span>The largest angle over a smooth joint is {found}°; \
-                 {limit}° is allowed.</span></p>\n"
+                "<p class=\"check {class}\"><b>{word}.</b> <span>The largest angle over a smooth joint is {found}{DEGREES}; \
+                 {limit}{DEGREES} is allowed.</span></p>\n"
             )
         });
         format!(
-            "<header>\n<p class=\"kicker\">Surface quality</p>\n<h1>{}</h1>\n<p class=\"lead\">{what}, {state}. {} in size, {} \
+            "<header>\n<p class=\"kicker\">Surface quality</p>\n<h1>{name}</h1>\n<p class=\"lead\">{what}, {state}. {} in size, {} \
              in area. Lengths are in the unit of the file, curvatures in one over it, angles in degrees.</p>\n{}</header>\n",
-            escape(self.name),
             size.join(" × "),
             number(figures.area),
             check.unwrap_or_default()
@@ -82,9 +83,9 @@ impl Page<'_> {
         }
         let metrics = [
             ("Gap", "G0", &smooth.gap, ""),
-            ("Angle", "G1", &smooth.angle_deg, "°"),
+            ("Angle", "G1", &smooth.angle_deg, DEGREES),
             ("Curvature", "G2", &smooth.curvature_relative, ""),
-            ("Kink of lines", "", &smooth.kink_deg, "°"),
+            ("Kink of lines", "", &smooth.kink_deg, DEGREES),
         ];
         let mut html = "<section class=\"cards\">\n".to_owned();
         for ((label, grade, metric, unit), verdict) in
@@ -132,7 +133,7 @@ impl Page<'_> {
             "<div class=\"wide\"><table>\n<thead><tr><th>{}</th><th class=\"n\">largest</th><th class=\"n\">95 %</th>\
              <th class=\"n\">mean</th><th>largest on</th></tr></thead>\n<tbody>\n{}{}</tbody>\n</table></div>\n",
             count(sharp.joints, "joint on a crease", "joints on creases"),
-            row("Angle", &sharp.angle_deg, "°"),
+            row("Angle", &sharp.angle_deg, DEGREES),
             row("Gap", &sharp.gap, "")
         )
     }
@@ -171,7 +172,7 @@ impl Page<'_> {
                 };
                 let _ = writeln!(
                     rows,
-                    "<tr{class}><td>{no}</td><td>{}</td><td class=\"n\">{}</td><td class=\"where\">{}</td></tr>",
+                    "<tr{class}><td class=\"tight\">{no}</td><td>{}</td><td class=\"n\">{}</td><td class=\"where\">{}</td></tr>",
                     remark.what, remark.value, remark.place
                 );
             }
@@ -190,7 +191,7 @@ impl Page<'_> {
             let [p5, p50, p95] = [spread.p5, spread.p50, spread.p95].map(number);
             format!(
                 "<div class=\"card\"><h3>{title}</h3>{}<dl class=\"facts\"><dt>median</dt><dd>{p50}</dd><dt>90 % of the area</dt>\
-                 <dd>{p5} to {p95}</dd><dt>all</dt><dd>{} to {}</dd></dl></div>\n",
+                 <dd><span>{p5} to</span> <span>{p95}</span></dd><dt>all</dt><dd><span>{} to</span> <span>{}</span></dd></dl></div>\n",
                 chart::histogram(spread, title),
                 number(spread.min),
                 number(spread.max)
@@ -235,7 +236,7 @@ impl Page<'_> {
         for point in found.points.iter().take(LISTED).filter(|point| point.swing > 0.0) {
             let _ = writeln!(
                 ranked,
-                "<tr><td>{}</td><td class=\"n\">{}</td><td>{}</td><td>{}</td></tr>",
+                "<tr><td>{}</td><td class=\"n\">{}</td><td class=\"tight\">{}</td><td>{}</td></tr>",
                 named(&point.place),
                 number(point.swing),
                 chart::rings(point),
@@ -251,7 +252,7 @@ impl Page<'_> {
             };
             let _ = writeln!(
                 without,
-                "<tr><td>{}</td><td>{cause}</td><td class=\"n\">{}°</td></tr>",
+                "<tr><td>{}</td><td>{cause}</td><td class=\"n\">{}{DEGREES}</td></tr>",
                 named(&point.place),
                 number(point.spread_deg)
             );
@@ -294,6 +295,9 @@ impl Page<'_> {
         format!("{notes}<footer>Measured by ogee {}.</footer>\n", env!("CARGO_PKG_VERSION"))
     }
 }
+
+/// The unit of angles.
+const DEGREES: &str = "<small> deg</small>";
 
 /// Points that are listed.
 const LISTED: usize = 10;

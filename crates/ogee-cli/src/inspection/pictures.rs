@@ -28,11 +28,24 @@ pub(crate) const SIZE: [u32; 2] = [720, 540];
 /// Samples along a side of a pixel.
 const SAMPLES: u32 = 2;
 
-/// Behind the surface, a little below the usual view.
-const BACK: Vec3 = Vec3::new(-0.6, 0.75, 0.28);
+/// Where else one may look from. The one that shows most of what the front hides is taken.
+const OTHER_SIDES: [(Vec3, &str); 6] = [
+    (Vec3::new(-0.6, 0.75, 0.28), "From behind"),
+    (Vec3::new(-0.6, 0.75, -0.45), "From behind and below"),
+    (Vec3::new(0.55, -0.7, -0.6), "From the front and below"),
+    (Vec3::new(-0.55, -0.7, 0.46), "From the left"),
+    (Vec3::new(0.2, -0.3, 0.93), "From above"),
+    (Vec3::new(0.2, -0.3, -0.93), "From below"),
+];
+
+/// Towards the light of isophotes.
+const LAMP: Vec3 = Vec3::new(0.36, -0.48, 0.8);
+
+/// The axis around which zebra stripes run.
+const ACROSS: Vec3 = Vec3::new(1.0, 0.0, 0.0);
 
 /// Lines of light over the diagonal of the surface, and the bright share of each.
-const LINES: f64 = 20.0;
+const LINES: f64 = 10.0;
 const WIDTH: f64 = 0.3;
 
 /// All pictures; `eye` is that whose reflection lines were measured under `light`.
@@ -43,53 +56,72 @@ pub(super) fn pictures(
     marks: &[Mark],
 ) -> Result<Vec<Picture>, RenderError> {
     let points = outline(surface);
-    let [front, back] = [THREE_QUARTER, BACK].map(|from| Camera::fit_from(from, &points, ANGLE, SIZE));
+    let places: Vec<Vec3> = marks.iter().map(|mark| mark.position).collect();
+    let look = |from: Vec3| {
+        let camera = Camera::fit_from(from, &points, ANGLE, SIZE);
+        let shown = camera.view(SIZE).map(|view| seen(surface, &view, &places));
+        (camera, shown.unwrap_or_default())
+    };
+    let (front, in_front) = look(THREE_QUARTER);
+    let mut other = (look(OTHER_SIDES[0].0), OTHER_SIDES[0].1);
+    let hidden = |shown: &[Option<[f64; 2]>]| {
+        shown.iter().zip(&in_front).filter(|(here, there)| here.is_some() && there.is_none()).count()
+    };
+    for (from, title) in OTHER_SIDES.into_iter().skip(1).filter(|_| in_front.contains(&None)) {
+        let side = look(from);
+        if hidden(&side.1) > hidden(&other.0.1) {
+            other = (side, title);
+        }
+    }
+    let ((back, behind), other_side) = other;
     let pattern = Pattern::Lines { period: size / LINES, width: WIDTH, phase: 0.0 };
-    let up = Vec3::new(0.0, 0.0, 1.0);
+    let none = Vec::new();
     let wanted = [
-        (front, Style::Shaded, true, "From the front", "The numbers are those of the table below."),
-        (back, Style::Shaded, true, "From behind", "What the front hides. Marks on hidden places are left out."),
+        (front, Style::Shaded, &in_front, "From the front", "The numbers are those of the table below."),
+        (back, Style::Shaded, &behind, other_side, "What the front hides. Marks that neither shows are left out."),
         (
             front,
             Style::Reflection { light, pattern },
-            false,
+            &none,
             "Reflection lines",
             "Tubes of light above, mirrored in the surface. Lines break at a gap, kink at an angle, and bend \
-             suddenly where curvature jumps.",
+             suddenly where curvature jumps; where it is dark, no tube is seen.",
         ),
         (
             front,
-            Style::Isophote { light: up, step: 10.0 },
-            false,
+            Style::Zebra { axis: ACROSS, count: 12.0 },
+            &none,
+            "Zebra",
+            "Stripes of a world far away, mirrored: they reach every side, also those that the tubes of light do not.",
+        ),
+        (
+            front,
+            Style::Isophote { light: LAMP, step: 10.0 },
+            &none,
             "Isophotes",
-            "Bands of equal angle to the vertical, 10° for a dark and a bright one together. They do not move with \
-             the eye.",
+            "Bands of equal angle between the normal and a light from the front and above, 10 degrees for a dark and a \
+             bright one together. They do not move with the eye.",
         ),
         (
             front,
             Style::Curvature { quantity: Quantity::Mean, limit: None },
-            false,
+            &none,
             "Mean curvature",
-            "Blue where the surface bends away from you, red where it bends towards you, grey where it is flat.",
+            "Blue where the surface bulges, red where it is hollow, grey where it is flat or bends both ways alike.",
         ),
     ];
-    let places: Vec<Vec3> = marks.iter().map(|mark| mark.position).collect();
     wanted
         .into_iter()
-        .map(|(camera, style, is_marked, title, caption)| {
+        .map(|(camera, style, shown, title, caption)| {
             let fine = SIZE.map(|side| SAMPLES * side);
             let scene = Scene { camera, size: fine, style, sampling: Sampling::Exact };
             let picture = render(surface, &scene)?;
             let mut png = Vec::new();
             // Writing into memory does not fail.
             let _ = picture.reduced(SAMPLES).image().write_png(&mut png);
-            let mut shown = Vec::new();
-            if let Some(view) = camera.view(SIZE).filter(|_| is_marked) {
-                let pixels = seen(surface, &view, &places);
-                shown.extend((1..).zip(pixels).filter_map(|(number, at)| Some((number, at?))));
-            }
             let source = format!("data:image/png;base64,{}", STANDARD.encode(png));
-            Ok(Picture { title, caption, source, marks: shown, limit: picture.limit })
+            let marks = (1..).zip(shown).filter_map(|(number, at)| Some((number, (*at)?))).collect();
+            Ok(Picture { title, caption, source, marks, limit: picture.limit })
         })
         .collect()
 }

@@ -1,6 +1,6 @@
 //! The figures as people read them on a terminal.
 
-use super::figures::{Figures, MetricFigures, Place, Radius};
+use super::figures::{At, Figures, MetricFigures, Place, Radius};
 use super::place;
 use super::verdict::Verdict;
 use crate::report::{Table, count, figure};
@@ -105,9 +105,10 @@ pub(super) fn faces_of(kind: &str) -> &'static str {
 
 /// `vertex 12, 5 faces`, or the place on a face where the point is no vertex.
 pub(super) fn named(point: &Place) -> String {
-    let what = match point.vertex {
-        Some(vertex) => format!("vertex {vertex}"),
-        None => place(&point.at),
+    let what = match (point.vertex, point.at) {
+        (Some(vertex), _) => format!("vertex {vertex}"),
+        (None, At { face, corner: Some(_), u: 1.0, v: 1.0 }) => format!("the middle of face {face}"),
+        (None, at) => place(&at),
     };
     format!("{what}, {} {}", point.faces, faces_of(point.kind))
 }
