@@ -175,22 +175,21 @@ fn the_page_opens_without_a_network_and_is_well_formed() {
     let folder = Folder::new();
     folder.write("a & b.obj", CUBE);
     folder.write("bent.json", bent());
-    let fan = "v 0 0 0\nv 1 0 0\nv 1 1 .3\nv 0 1 0\nv -1 1 0\nv -1 0 .2\nf 1 2 3 4\nf 1 4 5 6\n";
-    folder.write("open.obj", fan);
     let page = |arguments: &[&str]| {
         let mut command = folder.command("inspect --html page.html");
         command.args(arguments);
         finish(command).expect(0);
         String::from_utf8(folder.read("page.html")).unwrap()
     };
-    let pages = [page(&["a & b.obj", "--max-angle", "0.1"]), page(&["bent.json"]), page(&["open.obj"])];
+    let pages = [page(&["a & b.obj", "--max-angle", "0.1"]), page(&["bent.json"])];
     for page in &pages {
         assert!(page.starts_with("<!DOCTYPE html>"));
         assert_well_formed(page);
         for outside in ["http", "url(", "<link", "<script", "@import", "src=\"/"] {
             assert!(!page.contains(outside), "{outside}");
         }
-        assert!(!page.contains("NaN") && !page.contains("inf "));
+        let words: String = page.split('"').filter(|part| !part.starts_with("data:")).collect();
+        assert!(!words.contains("NaN") && !words.contains("inf "));
         assert_eq!(page.matches("<img src=\"data:image/png;base64,iVBOR").count(), 6);
         assert_eq!(page.matches("class=\"chart\"").count(), 3);
     }
@@ -210,9 +209,10 @@ fn the_page_opens_without_a_network_and_is_well_formed() {
 
 #[test]
 fn the_page_goes_to_stdout_too() {
-    let folder = Folder::with_cube();
-    let run = folder.ogee("inspect cube.obj --html -").expect(0);
+    let folder = Folder::new();
+    folder.write("bent.json", bent());
+    let run = folder.ogee("inspect bent.json --html -").expect(0);
     assert!(String::from_utf8(run.stdout).unwrap().ends_with("</html>\n"));
-    let json = folder.ogee("inspect cube.obj --html page.html --json").expect(0).json();
+    let json = folder.ogee("inspect bent.json --html page.html --json").expect(0).json();
     assert!(json["seconds"]["draw"].is_number());
 }

@@ -166,7 +166,7 @@ fn extraordinary_points_are_those_of_the_cage() {
 #[test]
 fn curvature_grows_from_five_faces_on_and_stays_bounded_at_three() {
     // Growth of the mean of |H| at each halving, as measured on test nets, and how far nets differ.
-    for (valence, growth, spread) in [(5, 1.07, 0.02), (6, 1.12, 0.02), (8, 1.20, 0.04), (12, 1.3, 0.1)] {
+    for (valence, growth, spread) in [(5, 1.07, 0.02), (6, 1.12, 0.02), (8, 1.20, 0.05), (12, 1.34, 0.1)] {
         let mesh = cages::disk(valence);
         let found = report(&mesh, light(&mesh)).extraordinary;
         let point = found.points.iter().find(|point| point.sector.kind == SectorKind::Interior).unwrap();
@@ -178,7 +178,8 @@ fn curvature_grows_from_five_faces_on_and_stays_bounded_at_three() {
             assert_eq!((point.sector.faces, point.behaviour), (3, Behaviour::Bounded), "{}", point.growth);
         }
     }
-    let flat = shapes::disk(5, 2);
+    let disk = cages::disk(5);
+    let flat = ControlMesh { points: disk.points.iter().map(|p| Vec3::new(p.x, p.y, 0.0)).collect(), ..disk };
     assert!(report(&flat, light(&flat)).extraordinary.points.iter().all(|p| p.behaviour == Behaviour::Flat));
 }
 
@@ -305,7 +306,7 @@ fn the_area_of_a_flat_sheet_and_of_a_ball() {
 
 #[test]
 fn singular_surfaces_give_numbers_or_nothing() {
-    let one_point = ControlMesh { points: vec![Vec3::new(1.0, 2.0, 3.0); 8], ..shapes::cube() };
+    let one_point = ControlMesh { points: vec![Vec3::ZERO; 8], ..shapes::cube() };
     let line = ControlMesh {
         points: shapes::cube().points.iter().map(|p| Vec3::new(p.x, 0.0, 0.0)).collect(),
         ..shapes::cube()
