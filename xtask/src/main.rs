@@ -1,8 +1,10 @@
 //! Chores of the workspace. `models [DIR]` writes the shipped cages, `bench` times whole commands, `bench limit`
-//! evaluation beside other programs; `bench-worker` is a part of that.
+//! evaluation beside other programs; `bench-worker` is a part of that. `reproduce interrogation` makes a paper's figures and
+//! tables again, `bless` the pictures that tests compare with.
 
 mod bench;
 mod models;
+mod reproduce;
 
 use std::path::PathBuf;
 
@@ -25,10 +27,31 @@ fn main() -> Result<()> {
         }
         ["bench", "limit"] => bench::limit::compare(&mut std::io::stdout()),
         ["bench", "limit", task] => bench::limit::compare_times(&mut std::io::stdout(), task),
+        ["reproduce", "interrogation"] => {
+            for line in reproduce::interrogation::write(&root())? {
+                println!("{line}");
+            }
+            Ok(())
+        }
+        ["bless"] => {
+            let mut command = std::process::Command::new(env!("CARGO"));
+            command.args(["test", "--package", "ogee-render", "--test", "pictures_stay_as_they_were_judged"]);
+            let status = command.env("OGEE_BLESS", "1").current_dir(root()).status()?;
+            anyhow::ensure!(status.success(), "the pictures were not drawn");
+            println!("drawn into testdata/images; look at what changed");
+            Ok(())
+        }
         ["bench-worker", ref rest @ ..] => {
             println!("{}", bench::worker::run(rest)?);
             Ok(())
         }
-        _ => bail!("usage: cargo xtask models [DIR] | bench [limit [TASK]]"),
+        _ => {
+            bail!("usage: cargo xtask models [DIR] | bench [limit [TASK]] | reproduce interrogation | bless")
+        }
     }
+}
+
+/// The folder of the workspace.
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..")
 }

@@ -156,6 +156,11 @@ impl View {
         [k * (w.x - q.x / q.z * w.z), -k * (w.y - q.y / q.z * w.z)]
     }
 
+    /// How many pixels wide a thin line is: it looks the same in larger pictures.
+    pub fn line_width(&self) -> f64 {
+        (f64::from(self.size[0].min(self.size[1])) / 700.0).max(1.0)
+    }
+
     /// Who looks, for reflections.
     pub fn viewer(&self) -> Viewer {
         if self.is_parallel { Viewer::Parallel(self.axes[2]) } else { Viewer::Eye(self.eye) }

@@ -72,6 +72,9 @@ mod tests {
         }
         assert_eq!(along(&DIVERGING, -1.0), along(&DIVERGING, 0.0));
         assert_eq!(along(&DIVERGING, 0.5), DIVERGING[2].map(decode));
-        assert_eq!(along(&DIVERGING, 2.0), DIVERGING[4].map(decode));
+        for (x, end) in [(2.0, DIVERGING[4]), (-1.0, DIVERGING[0])] {
+            let (colour, end) = (along(&DIVERGING, x), end.map(decode));
+            assert!((0..3).all(|k| (colour[k] - end[k]).abs() < 1e-6));
+        }
     }
 }

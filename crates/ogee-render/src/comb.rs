@@ -19,7 +19,7 @@ const HAIRS: usize = 24;
 pub(crate) fn draw(
     surface: &dyn Surface,
     view: &View,
-    scale: f64,
+    share: f64,
     shown: &[Fragment],
     colours: &mut [Colour],
 ) {
@@ -30,31 +30,56 @@ pub(crate) fn draw(
         depths[fragment.pixel as usize] = fragment.depth;
     }
     let mut canvas = Canvas { view, depths, colours, slack: 4e-3 * diagonal };
-    let (hair, tip) = ([40, 90, 160].map(linear), [190, 40, 30].map(linear));
+    let (hairs_colour, tips) = ([40, 90, 160].map(linear), [190, 40, 30].map(linear));
+    let mut curves: Vec<Vec<Hair>> = Vec::new();
     for square in surface.layout().squares() {
         for (along, is_edge) in [(0, square.edges[0]), (1, square.edges[3])] {
             for across in [0.0, 0.5] {
                 if across == 0.0 && !is_edge {
                     continue;
                 }
-                let hairs = hairs(surface, square, along, across, scale * diagonal * diagonal);
-                for pair in hairs.windows(2) {
-                    canvas.line(pair[0][1], pair[1][1], tip, 1.2);
-                }
-                for [root, end] in hairs {
-                    canvas.line(root, end, hair, 0.7);
-                }
+                curves.push(hairs(surface, square, along, across));
             }
         }
     }
+    // Where surfaces turn sharply hairs would hide everything else.
+    let mut sizes: Vec<f64> = curves.iter().flatten().map(|hair| hair.bend.abs()).collect();
+    sizes.sort_unstable_by(f64::total_cmp);
+    let usual = sizes.get(sizes.len() * 9 / 10).copied().unwrap_or_default();
+    if usual <= 0.0 {
+        return;
+    }
+    let thick = view.line_width();
+    let tip = |hair: &Hair| {
+        hair.root - (share * diagonal * (hair.bend / usual).clamp(-LONGEST, LONGEST)) * hair.normal
+    };
+    for curve in &curves {
+        for pair in curve.windows(2) {
+            canvas.line(tip(&pair[0]), tip(&pair[1]), tips, 1.2 * thick);
+        }
+        for hair in curve {
+            canvas.line(hair.root, tip(hair), hairs_colour, 0.7 * thick);
+        }
+    }
+}
+
+/// Times the usual length, at most.
+const LONGEST: f64 = 3.0;
+
+/// Where a curve of the surface bends.
+struct Hair {
+    root: Vec3,
+    normal: Vec3,
+    /// Negative where the surface bends away from its normal; hairs stand outside there.
+    bend: f64,
 }
 
 fn linear(byte: u8) -> f32 {
     decode(f32::from(byte) / 255.0)
 }
 
-/// Roots and ends of hairs along one parameter of a square at a value of the other.
-fn hairs(surface: &dyn Surface, square: &Square, along: usize, across: f64, scale: f64) -> Vec<[Vec3; 2]> {
+/// Hairs along one parameter of a square at a value of the other.
+fn hairs(surface: &dyn Surface, square: &Square, along: usize, across: f64) -> Vec<Hair> {
     let at: Vec<Location> = (0..=HAIRS)
         .map(|i| i as f64 / HAIRS as f64)
         .map(|x| if along == 0 { square.at(x, across) } else { square.at(across, x) })
@@ -72,11 +97,10 @@ fn hairs(surface: &dyn Surface, square: &Square, along: usize, across: f64, scal
             dvv: samples.dvv[i],
         };
         let direction = if along == 0 { jet.du } else { jet.dv };
-        // Negative where the surface bends away from its normal; hairs stand outside there.
-        let bend = jet.normal_curvature(normal, direction)?;
-        Some([position, position - scale * bend * normal])
+        let bend = jet.normal_curvature(normal, direction).filter(|bend| bend.is_finite())?;
+        Some(Hair { root: position, normal, bend })
     };
-    (0..at.len()).filter_map(hair).filter(|[_, end]| end.is_finite()).collect()
+    (0..at.len()).filter_map(hair).collect()
 }
 
 /// A picture that lines are drawn into.

@@ -10,6 +10,7 @@
 //! | `render` | [`render`]: the passes, [`Picture`] |
 //! | `polygon`, `raster` | [`Polygon`], [`Fragment`]: which face and parameters a pixel shows |
 //! | `solve` | from there to the point that the pixel shows exactly |
+//! | `displacement` | [`displacement`]: how far lines are from their place, in pixels |
 //! | `comb`, `legend` | combs; the scale of a map |
 //! | `camera` | [`Camera`], [`View`]: where a point is in the picture |
 //! | `sight` | [`seen`]: which points nothing hides |
@@ -20,6 +21,7 @@
 mod camera;
 pub mod colour;
 mod comb;
+mod displacement;
 mod image;
 mod legend;
 pub mod pattern;
@@ -32,6 +34,7 @@ mod solve;
 mod style;
 
 pub use camera::{ANGLE, Camera, Projection, THREE_QUARTER, View};
+pub use displacement::{Displacement, Spread, displacement};
 pub use image::{Image, ImageError, Light};
 pub use polygon::Polygon;
 pub use raster::Fragment;

@@ -83,8 +83,8 @@ pub enum Style {
     },
     /// Curvature of the curves in the middle of faces and between them, as hairs along the normal.
     Combs {
-        /// The length of a hair for a curvature of 1 over the diagonal of the surface, as a share of the diagonal.
-        scale: f64,
+        /// How long hairs are where 90 % of all are shorter, as a share of the diagonal of the surface.
+        share: f64,
     },
 }
 

@@ -68,7 +68,7 @@
 //! | `rules` | [`Level`]: a topology with its rules; [`Sector`]; the rule table |
 //! | `refine` | the one-to-four split, [`Step`], [`Refinement`], [`FineMesh`] |
 //! | `patch` | [`PatchTable`]: what each face's surface is made of; [`Location`]; limit masks; pieces of a level, taken out |
-//! | `limit` | [`LimitSurface`]: the surface at any point; [`ClosestPoints`]; [`limit_vertices`] |
+//! | `limit` | [`LimitSurface`]: the surface at any point; [`Pattern`]: at the same places on every face; [`ClosestPoints`]; [`limit_vertices`] |
 //! | [`nurbs`] | knots, curves, surfaces of any degree, shells |
 //! | [`stam`] | the limit surface a second time, by eigenvectors, at smooth interior vertices |
 //! | [`pccm`] | one smooth patch per quad, and packing them into few |
@@ -105,8 +105,8 @@ pub mod stam;
 mod stencil;
 
 pub use limit::{
-    Closest, ClosestPoints, Derivatives, Flags, LimitJet, LimitSurface, LimitVertex, Samples, SurfacePoint,
-    limit_vertices,
+    Closest, ClosestPoints, Derivatives, Flags, LimitJet, LimitSurface, LimitVertex, Pattern, Samples,
+    SurfacePoint, limit_vertices,
 };
 pub use math::{Curvature, Grid, Interpolate, SurfaceJet, Vec3};
 pub use mesh::{

@@ -8,6 +8,6 @@ pub(crate) mod commands;
 mod exchange;
 pub(crate) mod limit;
 mod peers;
-mod report;
+pub(crate) mod report;
 mod speed;
 pub(crate) mod worker;

@@ -304,7 +304,7 @@ impl Render {
                 };
                 Style::Error { light, level }
             }
-            Look::Combs => Style::Combs { scale: 0.01 },
+            Look::Combs => Style::Combs { share: 0.04 },
         }
     }
 }

@@ -74,6 +74,74 @@ pub fn studded_torus(around: u32, across: u32, spacing: u32) -> ControlMesh {
     mesh
 }
 
+/// A body with a cabin, 8 long, 4 wide and 2 high: 124 quads with eight vertices of valence 3, four of them on the
+/// cabin's roof, and four of valence 5 at its foot; front towards negative `x`.
+pub fn body() -> ControlMesh {
+    const SIDES: [i32; 3] = [8, 4, 2];
+    /// The quads of the upper side that the cabin stands on.
+    const CABIN: [std::ops::Range<i32>; 2] = [3..7, 1..3];
+    let place = |[i, j, k]: [i32; 3]| {
+        let (x, y) = (f64::from(i) - 4.0, f64::from(j) - 2.0);
+        let (a, b) = (x / 4.0, y / 2.0);
+        // Ends are narrower and lower than the middle, sides and ends bulge, and the cabin leans inward.
+        let narrow = 1.0 - 0.18 * a * a;
+        if k == 3 {
+            return Vec3::new(
+                0.8 * x + 0.3,
+                0.75 * y * narrow,
+                2.05 - 0.12 * b * b - 0.1 * (a - 0.1) * (a - 0.1),
+            );
+        }
+        let height = [0.0, 0.7, 1.3 - 0.25 * a * a - 0.16 * b * b + 0.05 * a][k as usize];
+        let bulge = [0.94, 1.06, 1.0][k as usize];
+        Vec3::new(x * (1.0 - 0.08 * b * b) * (0.5 + 0.5 * bulge), y * narrow * bulge, height)
+    };
+    let mut numbers = std::collections::BTreeMap::new();
+    let mut points = Vec::new();
+    let mut faces = FaceList::new();
+    let mut quad = |corners: [[i32; 3]; 4]| {
+        let ids = corners.map(|corner| {
+            *numbers.entry(corner).or_insert_with(|| {
+                points.push(place(corner));
+                points.len() as u32 - 1
+            })
+        });
+        faces.push(&ids);
+    };
+    for axis in 0..3 {
+        let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
+        for i in 0..SIDES[a] {
+            for j in 0..SIDES[b] {
+                let corner = |level: i32, di: i32, dj: i32| {
+                    let mut corner = [0; 3];
+                    (corner[axis], corner[a], corner[b]) = (level, i + di, j + dj);
+                    corner
+                };
+                quad([corner(0, 0, 0), corner(0, 0, 1), corner(0, 1, 1), corner(0, 1, 0)]);
+                let top = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(di, dj)| corner(SIDES[axis], di, dj));
+                if axis == 2 && CABIN[0].contains(&i) && CABIN[1].contains(&j) {
+                    quad(top.map(|[x, y, z]| [x, y, z + 1]));
+                } else {
+                    quad(top);
+                }
+            }
+        }
+    }
+    let [along, across] = CABIN;
+    let wall = |quad: &mut dyn FnMut([[i32; 3]; 4]), [x0, y0]: [i32; 2], [x1, y1]: [i32; 2]| {
+        quad([[x0, y0, 2], [x1, y1, 2], [x1, y1, 3], [x0, y0, 3]]);
+    };
+    for x in along.clone() {
+        wall(&mut quad, [x, across.start], [x + 1, across.start]);
+        wall(&mut quad, [x + 1, across.end], [x, across.end]);
+    }
+    for y in across {
+        wall(&mut quad, [along.end, y], [along.end, y + 1]);
+        wall(&mut quad, [along.start, y + 1], [along.start, y]);
+    }
+    ControlMesh::new(points, faces)
+}
+
 /// An open disk of `rings` rings of quads around one vertex of valence `n`, slightly domed. Vertex 0 is the
 /// middle.
 pub fn disk(n: u32, rings: u32) -> ControlMesh {

@@ -17,4 +17,4 @@ pub(crate) use chain::{ChainBasis, Kind, Wide};
 pub use location::{Location, LocationError, ParametricFace};
 pub(crate) use neighbourhood::{Neighbourhood, with_ring};
 pub use table::{PatchStatistics, PatchTable};
-pub(crate) use tree::{Piece, TURNED, Tail, from_corner, to_corner};
+pub(crate) use tree::{Node, Piece, TURNED, Tail, child, from_corner, to_corner};

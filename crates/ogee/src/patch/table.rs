@@ -1,5 +1,6 @@
 //! `PatchTable`: what every parametric face is made of.
 
+use std::ops::Range;
 use std::sync::OnceLock;
 
 use super::chain::ChainBasis;
@@ -197,6 +198,17 @@ impl PatchTable {
     pub(crate) fn root_tail(&self, root: u32) -> Tail {
         let [_, _, first, kind, corner, ..] = self.roots[root as usize].0;
         Tail { first, kind, corner }
+    }
+
+    /// The first parametric face of a range that is not visible.
+    pub(crate) fn first_hidden(&self, faces: Range<usize>) -> Option<usize> {
+        let first = self.hidden.partition_point(|&hidden| (hidden as usize) < faces.start);
+        self.hidden.get(first).map(|&hidden| hidden as usize).filter(|hidden| faces.contains(hidden))
+    }
+
+    /// Number of kinds of chains.
+    pub(crate) fn kind_count(&self) -> usize {
+        self.kinds.len()
     }
 
     /// Asks for what is stored about a parametric face, long before it is needed.

@@ -1,0 +1,121 @@
+//! `ogee render`: a PNG of the size asked for and a report, or an error and nothing.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod common;
+
+use common::Folder;
+
+/// Width and height of a PNG.
+fn size(png: &[u8]) -> [u32; 2] {
+    assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
+    [16, 20].map(|at| u32::from_be_bytes(png[at..at + 4].try_into().unwrap()))
+}
+
+#[test]
+fn every_style_is_drawn_and_reported() {
+    let folder = Folder::with_cube();
+    let styles = [
+        "shaded",
+        "wireframe",
+        "reflection",
+        "highlight",
+        "isophote",
+        "zebra",
+        "gauss",
+        "mean",
+        "k1",
+        "k2",
+        "greatest",
+        "gauss-sign",
+        "error",
+        "combs",
+    ];
+    for style in styles {
+        let run =
+            folder.ogee(&format!("render cube.obj --style {style} --size 48x32 -o a.png --json")).expect(0);
+        assert_eq!(size(&folder.read("a.png")), [48, 32]);
+        let report = run.json();
+        assert_eq!(report["style"], style);
+        assert_eq!(report["device"], "cpu");
+        assert_eq!(report["notes"][0]["code"], "drawn_on_cpu");
+        assert!(report["fragments"].as_u64().unwrap() > 500);
+        let is_map = ["gauss", "mean", "k1", "k2", "greatest", "gauss-sign", "error"].contains(&style);
+        assert_eq!(report["limit"].is_number(), is_map, "{style}");
+        for stage in ["upload", "ids", "position", "colour", "readback"] {
+            assert!(report["seconds"][stage].as_f64().unwrap() >= 0.0);
+        }
+    }
+}
+
+#[test]
+fn patches_of_a_part_look_like_the_cage_they_came_from() {
+    let folder = Folder::with_cube();
+    folder.ogee("convert cube.obj -o part.json").expect(0);
+    let view = "--eye 4,-5,3 --at 0,0,0 --size 64x64 --style shaded --device cpu";
+    folder.ogee(&format!("render cube.obj {view} -o cage.png")).expect(0);
+    folder.ogee(&format!("render part.json {view} -o part.png")).expect(0);
+    let pictures = ["cage.png", "part.png"].map(|name| folder.read(name));
+    let pixels = pictures.map(|bytes| {
+        let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut pixels).unwrap();
+        pixels
+    });
+    let far = pixels[0].iter().zip(&pixels[1]).filter(|&(a, b)| a.abs_diff(*b) > 40).count();
+    assert!(far < 60, "{far} colour values differ");
+    assert_ne!(pixels[0], pixels[1], "the patches are not quite the limit surface");
+}
+
+#[test]
+fn light_can_be_a_picture() {
+    let folder = Folder::with_cube();
+    folder.ogee("render cube.obj --style isophote --size 40x40 -o light.png").expect(0);
+    let draw = |light: &str, name: &str| {
+        let view = "--style highlight --size 40x40";
+        folder.ogee(&format!("render cube.obj {view} --light {light} -o {name}")).expect(0);
+        folder.read(name)
+    };
+    assert_ne!(draw("light.png", "a.png"), draw("lines", "b.png"));
+    folder.write("broken.png", b"no picture");
+    let run = folder.ogee("render cube.obj --style reflection --light broken.png -o c.png").expect(3);
+    assert!(run.first_line().starts_with("broken.png: "), "{}", run.stderr);
+}
+
+#[test]
+fn what_makes_no_sense_is_refused_and_nothing_is_written() {
+    let folder = Folder::with_cube();
+    let before = folder.names();
+    for (arguments, code, says) in [
+        ("render cube.obj -o a.jpg", 2, "png"),
+        ("render cube.obj -o -", 2, "output-format"),
+        ("render cube.obj -o a.png --size 0x10", 2, "size"),
+        ("render cube.obj -o a.png --size 16384x16384 --samples 8", 2, "too large"),
+        ("render cube.obj -o a.png --style fog", 2, "fog"),
+        ("render cube.obj -o a.png --light fog", 2, "lattice"),
+        ("render cube.obj -o a.png --sampling polygon", 2, "polygon:LEVEL"),
+        ("render cube.obj -o a.png --device gpu", 2, "this build does not have"),
+        ("render cube.obj -o a.png --eye 0,0,0 --at 1,0,0", 3, "inside"),
+        ("render cube.obj -o a.png --eye 0,9,0 --at 0,18,0", 3, "no part of the surface"),
+        ("render cube.obj -o a.png --style mean --sampling polygon:2", 3, "curvature"),
+        ("render cube.obj -o a.png --style reflection --light-plane 5,1e-9", 3, "light plane"),
+        ("render missing.obj -o a.png", 3, "missing.obj"),
+        ("render cube.obj -o missing/a.png", 4, "missing"),
+    ] {
+        let run = folder.ogee(arguments).expect(code);
+        assert!(run.stderr.contains(says), "{arguments}: {}", run.stderr);
+        assert_eq!(folder.names(), before, "{arguments}");
+    }
+}
+
+#[test]
+fn pictures_are_the_same_on_any_number_of_threads() {
+    let folder = Folder::with_cube();
+    for threads in [1, 2] {
+        folder
+            .ogee(&format!(
+                "render cube.obj --style zebra --size 90x70 -o {threads}.png --threads {threads} --device cpu"
+            ))
+            .expect(0);
+    }
+    assert_eq!(folder.read("1.png"), folder.read("2.png"));
+}

@@ -1,0 +1,3 @@
+//! `cargo xtask reproduce PAPER`: a paper's figures and tables, made again.
+
+pub(crate) mod interrogation;
