@@ -27,11 +27,20 @@ fn a_table_for_people_and_an_object_for_programs() {
     let folder = Folder::with_cube();
     let run = folder.ogee("inspect cube.obj").expect(0);
     assert!(run.stdout.is_empty() && run.first_line() == "cube.obj");
-    for label in ["surface", "gap G0", "angle G1", "curvature G2", "smallest radius", "extraordinary", "seconds"] {
-        assert!(run.stderr.lines().any(|line| line.trim_start().starts_with(label)), "{label}: {}", run.stderr);
+    for label in
+        ["surface", "gap G0", "angle G1", "curvature G2", "smallest radius", "extraordinary", "seconds"]
+    {
+        assert!(
+            run.stderr.lines().any(|line| line.trim_start().starts_with(label)),
+            "{label}: {}",
+            run.stderr
+        );
     }
     let report = folder.ogee("inspect cube.obj --json").expect(0).json();
-    assert_eq!((&report["kind"], &report["faces"], &report["closed"]), (&json!("cage"), &json!(6), &json!(true)));
+    assert_eq!(
+        (&report["kind"], &report["faces"], &report["closed"]),
+        (&json!("cage"), &json!(6), &json!(true))
+    );
     let smooth = &report["continuity"]["smooth"];
     assert_eq!((&smooth["joints"], &smooth["gap"]["samples"]), (&json!(12), &json!(60)));
     for (metric, most) in
@@ -42,7 +51,11 @@ fn a_table_for_people_and_an_object_for_programs() {
             assert!(found[key].as_f64().unwrap() < most, "{metric} {key}: {found}");
         }
         let worst = &found["worst"][0];
-        assert!(worst["at"]["face"].is_u64() && worst["at"]["corner"].is_null() && worst["beside"]["v"].is_number());
+        assert!(
+            worst["at"]["face"].is_u64()
+                && worst["at"]["corner"].is_null()
+                && worst["beside"]["v"].is_number()
+        );
         assert_eq!(worst["position"].as_array().unwrap().len(), 3);
     }
     let extraordinary = &report["extraordinary"];
@@ -102,7 +115,11 @@ fn patches_are_told_by_what_is_in_them() {
 #[test]
 fn creases_are_apart() {
     let folder = Folder::new();
-    folder.write("top.obj", CUBE.to_owned() + "t crease 2/1/0 4 5 10\nt crease 2/1/0 5 7 10\nt crease 2/1/0 7 6 10\nt crease 2/1/0 6 4 10\n");
+    folder.write(
+        "top.obj",
+        CUBE.to_owned()
+            + "t crease 2/1/0 4 5 10\nt crease 2/1/0 5 7 10\nt crease 2/1/0 7 6 10\nt crease 2/1/0 6 4 10\n",
+    );
     let report = folder.ogee("inspect top.obj --json").expect(0).json();
     let found = &report["continuity"];
     assert_eq!((&found["smooth"]["joints"], &found["sharp"]["joints"]), (&json!(8), &json!(4)));
@@ -197,10 +214,14 @@ fn the_page_opens_without_a_network_and_is_well_formed() {
     assert!(pages[1].contains("joint on a crease") && pages[1].contains("2 patches"));
     // What is marked in pictures stands in the table.
     for page in &pages {
-        for bubble in page.match_indices("text-anchor=\"middle\">").map(|(k, found)| &page[k + found.len()..]) {
+        for bubble in page.match_indices("text-anchor=\"middle\">").map(|(k, found)| &page[k + found.len()..])
+        {
             let label = &bubble[..bubble.find('<').unwrap()];
             let is_zero_of_axis = label == "0";
-            assert!(is_zero_of_axis || page.contains(&format!("<span class=\"no\">{label}</span>")), "{label}");
+            assert!(
+                is_zero_of_axis || page.contains(&format!("<span class=\"no\">{label}</span>")),
+                "{label}"
+            );
         }
     }
     // Equal input gives equal bytes.

@@ -25,7 +25,9 @@ pub fn seen(surface: &dyn Surface, view: &View, points: &[Vec3]) -> Vec<Option<[
     let is_seen = |q: Vec3, [x, y]: [f64; 2]| {
         // On the outline the pixel itself may show what is behind.
         let around = |x: f64| (x as usize).saturating_sub(1)..x as usize + 2;
-        around(y).any(|y| around(x).any(|x| x < width && y < height && (depths[y * width + x] - q.z).abs() <= slack))
+        around(y).any(|y| {
+            around(x).any(|x| x < width && y < height && (depths[y * width + x] - q.z).abs() <= slack)
+        })
     };
     let pixel = |&point: &Vec3| {
         let q = view.to_camera(point);

@@ -91,7 +91,8 @@ fn roof(degrees: f64, columns: u32) -> ControlMesh {
         let beyond = (p.x - middle).max(0.0);
         Vec3::new(p.x.min(middle) + cosine * beyond, p.y, -sine * beyond)
     });
-    let ridge: Vec<[u32; 2]> = (0..3).map(|j| [0, 1].map(|k| (j + k) * (2 * columns + 1) + columns)).collect();
+    let ridge: Vec<[u32; 2]> =
+        (0..3).map(|j| [0, 1].map(|k| (j + k) * (2 * columns + 1) + columns)).collect();
     creased(ControlMesh { points: bent.collect(), ..flat }, &ridge, 10.0)
 }
 
@@ -208,7 +209,13 @@ fn points_without_a_tangent_plane_are_named() {
 
 /// A cage and its light, turned, moved and scaled together.
 fn moved(mesh: &ControlMesh, scale: f64) -> (ControlMesh, Field) {
-    let turn = |p: Vec3| Vec3::new(0.36 * p.x + 0.48 * p.y - 0.8 * p.z, -0.8 * p.x + 0.6 * p.y, 0.48 * p.x + 0.64 * p.y + 0.6 * p.z);
+    let turn = |p: Vec3| {
+        Vec3::new(
+            0.36 * p.x + 0.48 * p.y - 0.8 * p.z,
+            -0.8 * p.x + 0.6 * p.y,
+            0.48 * p.x + 0.64 * p.y + 0.6 * p.z,
+        )
+    };
     let Field::Plane { light, viewer: Viewer::Eye(eye), ray, axis } = light(mesh) else { panic!("a plane") };
     let there = |p: Vec3| scale * turn(p) + scale * Vec3::new(3.0, -2.0, 1.0);
     let field = Field::Plane {
@@ -239,10 +246,19 @@ fn turning_and_scaling_change_nothing_but_lengths() {
         }
         near(here.continuity.sharp.angle.max, there.continuity.sharp.angle.max, "crease");
         near(here.curvature.mean.quantiles[1], there.curvature.mean.quantiles[1] * scale, "mean curvature");
-        near(here.curvature.gauss.quantiles[2], there.curvature.gauss.quantiles[2] * scale * scale, "Gauss curvature");
+        near(
+            here.curvature.gauss.quantiles[2],
+            there.curvature.gauss.quantiles[2] * scale * scale,
+            "Gauss curvature",
+        );
         assert_eq!(here.continuity.smooth.kink.samples, there.continuity.smooth.kink.samples);
-        assert!(there.continuity.smooth.kink.max < KINK_DEGREES && there.continuity.smooth.angle.max < ANGLE_DEGREES);
-        let swings = |report: &Report| report.extraordinary.points.iter().map(|p| p.rings[2].mean_swing).collect::<Vec<_>>();
+        assert!(
+            there.continuity.smooth.kink.max < KINK_DEGREES
+                && there.continuity.smooth.angle.max < ANGLE_DEGREES
+        );
+        let swings = |report: &Report| {
+            report.extraordinary.points.iter().map(|p| p.rings[2].mean_swing).collect::<Vec<_>>()
+        };
         for (a, b) in swings(&here).into_iter().zip(swings(&there)) {
             near(a, b, "swing");
         }
@@ -315,13 +331,20 @@ fn singular_surfaces_give_numbers_or_nothing() {
         points: shapes::cube().points.iter().map(|p| Vec3::new(p.x, p.y, 0.0)).collect(),
         ..shapes::cube()
     };
-    let tiny = ControlMesh { points: shapes::cube().points.iter().map(|&p| 1e-150 * p).collect(), ..shapes::cube() };
+    let tiny =
+        ControlMesh { points: shapes::cube().points.iter().map(|&p| 1e-150 * p).collect(), ..shapes::cube() };
     let mut pinched = shaken(shapes::grid(3, 3), 0.3);
     let (a, b) = (pinched.points[5], 6);
     pinched.points[b] = a;
     let (_, pillow) = cages::all().into_iter().find(|(name, _)| name == "pillow").unwrap();
-    let cages =
-        [("point", one_point), ("line", line), ("flat", flat), ("tiny", tiny), ("pinched", pinched), ("pillow", pillow)];
+    let cages = [
+        ("point", one_point),
+        ("line", line),
+        ("flat", flat),
+        ("tiny", tiny),
+        ("pinched", pinched),
+        ("pillow", pillow),
+    ];
     for (name, mesh) in cages {
         let field = light(&shapes::cube());
         let found = report(&mesh, field);

@@ -26,7 +26,8 @@ fn field() -> Field {
 
 /// A patch of a degree along `u` over face `face`, from its net: rows along `u`.
 fn patch(face: u32, degree: usize, rows: &[[Vec3; 2]]) -> (NurbsSurface, Grid<FaceAddress>) {
-    let knots = |degree: usize| KnotVector::new(degree, [vec![0.0; degree + 1], vec![1.0; degree + 1]].concat());
+    let knots =
+        |degree: usize| KnotVector::new(degree, [vec![0.0; degree + 1], vec![1.0; degree + 1]].concat());
     let net = Grid::from_fn(rows.len(), 2, |i, j| rows[i][j]);
     let surface = NurbsSurface { u: knots(degree), v: knots(1), net };
     (surface, Grid::from_fn(1, 1, |_, _| FaceAddress { face: FaceId(face), corner: None }))
@@ -68,7 +69,10 @@ fn a_bend_is_measured_as_it_was_made() {
         let kink = line_on(sides[0], sides[1]).angle(line_on(down, sides[1])).to_degrees();
         let kink = kink.min(180.0 - kink);
         let measured = &found.smooth.kink;
-        assert!(kink > 0.3 * degrees && (measured.max - kink).abs() < 1e-9 * (1.0 + kink), "{kink} {measured:?}");
+        assert!(
+            kink > 0.3 * degrees && (measured.max - kink).abs() < 1e-9 * (1.0 + kink),
+            "{kink} {measured:?}"
+        );
         assert!(found.smooth.gap.max < 1e-15 && found.smooth.curvature.max < 1e-12);
         let JointPlace { at, beside, position, .. } = angle.worst[0];
         assert_eq!([at.face.0, beside.face.0], [4, 9]);
@@ -137,7 +141,9 @@ fn parts_agree_with_their_own_report() {
             // Quadrature over the knots inside patches.
             assert!((found.curvature.area / own.area - 1.0).abs() < 5e-3);
             let found = found.extraordinary;
-            assert!(found.points.iter().all(|p| p.sector.kind == SectorKind::Interior && p.sector.faces != 4));
+            assert!(
+                found.points.iter().all(|p| p.sector.kind == SectorKind::Interior && p.sector.faces != 4)
+            );
             assert_eq!(found.without_plane, []);
         }
     }
@@ -145,7 +151,8 @@ fn parts_agree_with_their_own_report() {
 
 #[test]
 fn a_torn_point_is_named() {
-    let part = to_part(&cages::body(), &Options { packing: Packing::Unpacked, ..Options::default() }).unwrap();
+    let part =
+        to_part(&cages::body(), &Options { packing: Packing::Unpacked, ..Options::default() }).unwrap();
     let mut patches = pieces(&part);
     let view = PatchView::new(patches.clone()).unwrap();
     let options = ReportOptions::new(field());

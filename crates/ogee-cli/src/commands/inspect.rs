@@ -114,7 +114,13 @@ impl Inspect {
         let start = Instant::now();
         if let Some(html) = &html {
             progress.step("drawing");
-            let page = PageOf { name: &subject.name, figures: &figures, max_angle: self.max_angle, light, notes: &notes };
+            let page = PageOf {
+                name: &subject.name,
+                figures: &figures,
+                max_angle: self.max_angle,
+                light,
+                notes: &notes,
+            };
             let (text, fault) = subject.look(|surface| page.html(surface));
             html.write(|out| out.write_all(text.as_bytes()))?;
             notes.extend(fault.map(|fault| {
@@ -146,7 +152,8 @@ impl Inspect {
         console.json(&report)?;
         let Some(limit) = excess else { return Ok(ExitCode::SUCCESS) };
         let (found, limit) = (figure(largest), figure(limit));
-        let message = format!("two faces meet at {found} degrees where there is no crease; {limit} is allowed");
+        let message =
+            format!("two faces meet at {found} degrees where there is no crease; {limit} is allowed");
         console.findings(&[Finding::in_file("angle_too_large", message, &subject.name)]);
         Ok(ExitCode::from(Exit::Check as u8))
     }
@@ -155,7 +162,9 @@ impl Inspect {
     fn crease_angle(&self, subject: &Subject) -> Result<Option<f64>, Failure> {
         if subject.cage().is_none() && (self.cage.boundary.is_some() || self.cage.creasing.is_some()) {
             let name = &subject.name;
-            return Err(Failure::usage(format!("{name} has patches: --boundary and --creasing are for cages")));
+            return Err(Failure::usage(format!(
+                "{name} has patches: --boundary and --creasing are for cages"
+            )));
         }
         let crease_angle = self.crease_angle.or(subject.cage().is_none().then_some(CREASE_ANGLE));
         match (self.max_angle, crease_angle) {
@@ -182,10 +191,7 @@ fn measure(
     let measured = Measured::new(surface, &options)
         .ok_or_else(|| subject.failure("no_surface", "there is no face whose points are finite"))?;
     let mesh = subject.cage().map(Cage::mesh);
-    let lines = Lines {
-        eye: camera.eye.into(),
-        light_centre: light.centre.into(),
-        light_axis: light.axes[0].into(),
-    };
+    let lines =
+        Lines { eye: camera.eye.into(), light_centre: light.centre.into(), light_axis: light.axes[0].into() };
     Ok((Figures::new(&measured, subject.faces(), mesh), light, lines))
 }

@@ -62,7 +62,8 @@ pub(super) fn marks(picture: &Picture) -> String {
     for &(label, [x, y]) in &picture.marks {
         // The direction in which the circle is farthest from everything else.
         let free = |[a, b]: [f64; 2]| {
-            let others = picture.marks.iter().filter(|mark| mark.0 != label).map(|mark| &mark.1).chain(&taken);
+            let others =
+                picture.marks.iter().filter(|mark| mark.0 != label).map(|mark| &mark.1).chain(&taken);
             let near = others.map(|[c, d]| (a - c).hypot(b - d)).fold(200.0, f64::min);
             let edge = a.min(width - a).min(b).min(height - b) - RADIUS;
             near.min(10.0 * edge)
@@ -109,8 +110,7 @@ pub(super) fn scale(limit: f64) -> String {
 pub(super) fn rings(point: &Point) -> String {
     let most = point.rings.iter().map(|ring| ring.mean).fold(f64::MIN_POSITIVE, f64::max);
     let spot = |k: usize| (4.0 + 14.4 * k as f64, 22.0 - 18.0 * point.rings[k].mean / most);
-    let line: Vec<String> =
-        (0..point.rings.len()).map(spot).map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
+    let line: Vec<String> = (0..point.rings.len()).map(spot).map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
     let mut svg = format!(
         "<svg class=\"spark\" viewBox=\"0 0 80 26\" role=\"img\" aria-label=\"Mean curvature on smaller and smaller rings\">\
          <polyline points=\"{}\"/>",

@@ -222,7 +222,12 @@ impl Figures {
                 found: extraordinary.found,
                 examined: extraordinary.points.len(),
                 by_valence: by_valence(&extraordinary.points),
-                points: extraordinary.points.iter().take(LISTED).map(|point| self::point(point, mesh)).collect(),
+                points: extraordinary
+                    .points
+                    .iter()
+                    .take(LISTED)
+                    .map(|point| self::point(point, mesh))
+                    .collect(),
                 without_plane_found: without_plane.len(),
                 without_plane: without_plane
                     .iter()

@@ -60,7 +60,8 @@ pub(super) fn marks(figures: &Figures) -> Vec<Mark> {
         found.add(point.place.position, Remark { what, value, place });
     }
     let radii = &figures.curvature.smallest_radius;
-    for (what, radius) in [("smallest radius, concave", &radii.concave), ("smallest radius, convex", &radii.convex)]
+    for (what, radius) in
+        [("smallest radius, concave", &radii.concave), ("smallest radius, convex", &radii.convex)]
     {
         if let Some(Radius { radius, at, position }) = radius {
             found.add(*position, Remark { what, value: number(*radius), place: place(at) });

@@ -28,8 +28,15 @@ impl Page<'_> {
     pub(super) fn html(&self) -> String {
         let name = std::path::Path::new(self.name).file_name();
         let name = escape(&name.map_or_else(|| self.name.into(), |name| name.to_string_lossy()));
-        let sections =
-            [self.header(&name), self.cards(), self.views(), self.places(), self.curvature(), self.points(), self.notes()];
+        let sections = [
+            self.header(&name),
+            self.cards(),
+            self.views(),
+            self.places(),
+            self.curvature(),
+            self.points(),
+            self.notes(),
+        ];
         format!(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" \
              content=\"width=device-width, initial-scale=1\">\n<title>{} \u{2013} surface quality</title>\n<style>\n{}</style>\n\
@@ -77,9 +84,9 @@ impl Page<'_> {
         let figures = self.figures;
         let smooth = &figures.continuity.smooth;
         if smooth.joints == 0 {
-            return "<section>\n<p class=\"about\">No two faces meet smoothly, so there is nothing to measure between \
-                    them.</p>\n</section>\n"
-                .to_owned();
+            let nothing = "<section>\n<p class=\"about\">No two faces meet smoothly, so nothing is measured between \
+                           them.</p>\n</section>\n";
+            return nothing.to_owned() + &self.creases();
         }
         let metrics = [
             ("Gap", "G0", &smooth.gap, ""),
@@ -143,9 +150,10 @@ impl Page<'_> {
             return String::new();
         }
         let [width, height] = SIZE;
-        let mut html = "<section>\n<h2>Pictures</h2>\n<p class=\"about\">Every pixel shows the exact point of the \
+        let mut html =
+            "<section>\n<h2>Pictures</h2>\n<p class=\"about\">Every pixel shows the exact point of the \
                         surface.</p>\n<div class=\"pictures\">\n"
-            .to_owned();
+                .to_owned();
         for picture in self.pictures {
             let Picture { title, caption, source, marks, limit } = picture;
             let marks = if marks.is_empty() { String::new() } else { chart::marks(picture) };
@@ -280,14 +288,19 @@ impl Page<'_> {
                 html,
                 "<div class=\"wide gap\"><table>\n<thead><tr><th>{}</th><th>why</th><th class=\"n\">normals apart</th></tr></thead>\n\
                  <tbody>\n{without}</tbody>\n</table></div>",
-                count(found.without_plane_found, "point without a tangent plane", "points without a tangent plane")
+                count(
+                    found.without_plane_found,
+                    "point without a tangent plane",
+                    "points without a tangent plane"
+                )
             );
         }
         html + "</section>\n"
     }
 
     fn notes(&self) -> String {
-        let items: String = self.notes.iter().map(|note| format!("<li>{}</li>\n", escape(&note.message))).collect();
+        let items: String =
+            self.notes.iter().map(|note| format!("<li>{}</li>\n", escape(&note.message))).collect();
         let notes = match items.is_empty() {
             true => String::new(),
             false => format!("<section>\n<h2>Notes</h2>\n<ul class=\"notes\">\n{items}</ul>\n</section>\n"),

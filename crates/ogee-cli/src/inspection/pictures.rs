@@ -5,7 +5,8 @@ use base64::engine::general_purpose::STANDARD;
 use ogee::Vec3;
 use ogee::quality::{PlaneLight, Surface};
 use ogee_render::{
-    ANGLE, Camera, Pattern, Quantity, RenderError, Sampling, Scene, Style, THREE_QUARTER, outline, render, seen,
+    ANGLE, Camera, Pattern, Quantity, RenderError, Sampling, Scene, Style, THREE_QUARTER, outline, render,
+    seen,
 };
 
 use super::marks::Mark;
@@ -78,14 +79,20 @@ pub(super) fn pictures(
     let none = Vec::new();
     let wanted = [
         (front, Style::Shaded, &in_front, "From the front", "The numbers are those of the table below."),
-        (back, Style::Shaded, &behind, other_side, "What the front hides. Marks that neither shows are left out."),
+        (
+            back,
+            Style::Shaded,
+            &behind,
+            other_side,
+            "What the front hides. Marks that neither shows are left out.",
+        ),
         (
             front,
             Style::Reflection { light, pattern },
             &none,
             "Reflection lines",
-            "Tubes of light above, mirrored in the surface. Lines break at a gap, kink at an angle, and bend \
-             suddenly where curvature jumps; where it is dark, no tube is seen.",
+            "Tubes of light above, mirrored in the surface. Lines break off where faces meet at an angle and kink where \
+             curvature jumps; where it is dark, no tube is seen.",
         ),
         (
             front,

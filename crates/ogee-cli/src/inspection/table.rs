@@ -29,7 +29,8 @@ pub(crate) fn table(figures: &Figures, verbose: bool) -> Table {
         ("kink of lines", &smooth.kink_deg, " deg"),
     ];
     let verdicts = Verdict::on(continuity, figures.size);
-    for ((label, found, unit), verdict) in rows.into_iter().zip(verdicts).filter(|(row, _)| row.1.samples > 0) {
+    for ((label, found, unit), verdict) in rows.into_iter().zip(verdicts).filter(|(row, _)| row.1.samples > 0)
+    {
         table.row(label, metric(found, unit));
         // Where rounding is largest interests nobody.
         let listed = if verbose { usize::MAX } else { usize::from(verdict != Verdict::Exact) };
@@ -55,7 +56,10 @@ pub(crate) fn table(figures: &Figures, verbose: bool) -> Table {
         table.row(label, format!("median {middle}, 90 % of the area within {low} to {high}"));
     }
     if curvature.undefined_normals > 0 {
-        table.row("without normal", format!("{} of {} samples", curvature.undefined_normals, curvature.samples));
+        table.row(
+            "without normal",
+            format!("{} of {} samples", curvature.undefined_normals, curvature.samples),
+        );
     }
     let examined = match extraordinary.examined {
         all if all == extraordinary.found => String::new(),
@@ -69,7 +73,10 @@ pub(crate) fn table(figures: &Figures, verbose: bool) -> Table {
         };
         let swing = figure(valence.swing_max);
         let points = count(valence.count, "point", "points");
-        table.row("", format!("{points} of {} {}: {growth}, swing {swing}", valence.faces, faces_of(valence.kind)));
+        table.row(
+            "",
+            format!("{points} of {} {}: {growth}, swing {swing}", valence.faces, faces_of(valence.kind)),
+        );
     }
     for point in extraordinary.points.iter().take(if verbose { usize::MAX } else { FEW }) {
         table.row("swings most", format!("{} at {}", figure(point.swing), named(&point.place)));

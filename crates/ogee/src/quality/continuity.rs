@@ -101,7 +101,8 @@ impl Continuity {
         let mut places = Vec::new();
         for (block, joints) in layout.joints().chunks(BLOCK).enumerate() {
             places.clear();
-            places.extend(joints.iter().flat_map(|joint| FRACTIONS.map(|x| sides(layout, joint, x))).flatten());
+            places
+                .extend(joints.iter().flat_map(|joint| FRACTIONS.map(|x| sides(layout, joint, x))).flatten());
             surface.evaluate(&places, Derivatives::Second, &mut samples);
             let measured: Vec<[Measured; 5]> = par::collect(joints.len(), |joint| {
                 std::array::from_fn(|x| {
@@ -139,14 +140,8 @@ fn sides(layout: &Layout, joint: &Joint, x: f64) -> [Location; 2] {
 /// One sample of many.
 pub(super) fn jet(samples: &Samples, i: usize) -> LimitJet {
     let Samples { position, du, dv, normal, duu, duv, dvv, flags } = samples;
-    let jet = SurfaceJet {
-        position: position[i],
-        du: du[i],
-        dv: dv[i],
-        duu: duu[i],
-        duv: duv[i],
-        dvv: dvv[i],
-    };
+    let jet =
+        SurfaceJet { position: position[i], du: du[i], dv: dv[i], duu: duu[i], duv: duv[i], dvv: dvv[i] };
     LimitJet { jet, normal: normal[i], flags: flags[i] }
 }
 

@@ -203,8 +203,10 @@ fn examine(surface: &dyn Surface, fan: &Fan, sector: Sector, size: f64) -> Extra
             })
             .collect();
         surface.evaluate(&places, Derivatives::Second, &mut samples);
-        let curvatures: Vec<_> =
-            (0..places.len()).filter_map(|i| jet(&samples, i).curvature()).map(|c| (c.mean, c.gauss)).collect();
+        let curvatures: Vec<_> = (0..places.len())
+            .filter_map(|i| jet(&samples, i).curvature())
+            .map(|c| (c.mean, c.gauss))
+            .collect();
         let (mean, mean_swing) = swing(curvatures.iter().map(|c| c.0), FLAT / size);
         let (_, gauss_swing) = swing(curvatures.iter().map(|c| c.1), (FLAT / size) * (FLAT / size));
         Ring { mean, mean_swing, gauss_swing }
@@ -278,7 +280,9 @@ fn sectors(layout: &Layout, is_sharp: &[bool]) -> Vec<Fan> {
     let index = |[square, corner]: [u32; 2]| 4 * square as usize + corner as usize;
     let mut seen = vec![false; 4 * layout.squares().len()];
     let mut fans = Vec::new();
-    for start in (0..layout.squares().len() as u32).flat_map(|square| (0..4).map(move |corner| [square, corner])) {
+    for start in
+        (0..layout.squares().len() as u32).flat_map(|square| (0..4).map(move |corner| [square, corner]))
+    {
         if seen[index(start)] {
             continue;
         }

@@ -158,7 +158,9 @@ impl Distribution {
     /// Of values with the area that each stands for.
     fn new(mut values: Vec<(f64, f64)>) -> Distribution {
         values.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let (Some(first), Some(last)) = (values.first(), values.last()) else { return Distribution::default() };
+        let (Some(first), Some(last)) = (values.first(), values.last()) else {
+            return Distribution::default();
+        };
         let (least, greatest) = (first.0, last.0);
         let total: f64 = values.iter().map(|(_, area)| area).sum();
         let mut sums: Vec<f64> = Vec::with_capacity(values.len());
