@@ -37,3 +37,31 @@ pub fn seen(surface: &dyn Surface, view: &View, points: &[Vec3]) -> Vec<Option<[
     };
     points.iter().map(pixel).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Camera;
+    use ogee::quality::LimitView;
+    use ogee::{Level, LimitSurface, PatchTable, shapes};
+
+    #[test]
+    fn a_ball_shows_the_side_that_faces_the_eye() {
+        let mesh = shapes::cube();
+        let level = Level::new(&mesh).unwrap();
+        let table = PatchTable::new(&level);
+        let limit = LimitSurface::new(&table, &mesh.points);
+        let surface = LimitView::new(&level, &limit);
+        // The limits of the corners, which are those of the cube drawn in.
+        let corners: Vec<Vec3> =
+            ogee::limit_vertices(&level, &mesh.points).iter().map(|vertex| vertex.position).collect();
+        let from = Vec3::new(0.05, -1.0, 0.1);
+        let view = Camera::fit_from(from, &corners, 20.0, [200, 150]).view([200, 150]).unwrap();
+        let shown = seen(&surface, &view, &corners);
+        for (corner, at) in corners.iter().zip(shown) {
+            assert_eq!(at.is_some(), corner.y < 0.0, "{corner:?}");
+            let pixel = view.pixel(view.to_camera(*corner));
+            assert!(at.is_none_or(|at| at == pixel));
+        }
+    }
+}
