@@ -76,6 +76,14 @@ impl Subject {
         }
     }
 
+    /// How many faces the cage has, or how many patches there are.
+    pub(crate) fn faces(&self) -> usize {
+        match &self.kind {
+            Kind::Cage { cage, .. } => cage.mesh().faces.len(),
+            Kind::Patches(view) => view.patches().len(),
+        }
+    }
+
     /// Lets somebody look at the surface.
     pub(crate) fn look<T>(&self, look: impl FnOnce(&dyn Surface) -> T) -> T {
         match &self.kind {

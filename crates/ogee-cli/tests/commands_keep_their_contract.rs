@@ -287,7 +287,6 @@ fn what_this_build_does_not_have_is_said() {
         "lens cube.obj",
         "render cube.obj -o a.png --device gpu",
         "lines cube.obj",
-        "inspect cube.obj",
         "batch plan",
         "view",
     ] {

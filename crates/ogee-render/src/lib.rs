@@ -13,6 +13,7 @@
 //! | `displacement` | [`displacement`]: how far lines are from their place, in pixels |
 //! | `comb`, `legend` | combs; the scale of a map |
 //! | `camera` | [`Camera`], [`View`]: where a point is in the picture |
+//! | `sight` | [`seen`]: which points nothing hides |
 //! | `style` | [`Scene`], [`Style`], [`Pattern`]: what is shown |
 //! | [`pattern`], [`colour`], [`shade`] | how bright, which colour: functions with twins in shaders |
 //! | `image` | [`Image`]: pixels, PNG |
@@ -28,6 +29,7 @@ mod polygon;
 mod raster;
 mod render;
 pub mod shade;
+mod sight;
 mod solve;
 mod style;
 
@@ -37,4 +39,5 @@ pub use image::{Image, ImageError, Light};
 pub use polygon::Polygon;
 pub use raster::Fragment;
 pub use render::{DISPLACEMENT, MOST_PIXELS, Picture, RenderError, Stages, bounding_box, outline, render};
+pub use sight::seen;
 pub use style::{Pattern, Quantity, Sampling, Scene, Style, default_light};

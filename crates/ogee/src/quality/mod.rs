@@ -3,15 +3,25 @@
 //! They look at a [`Surface`]: the limit of a cage ([`LimitView`]) or NURBS patches ([`PatchView`]), cut into squares of
 //! parameters that share whole sides.
 
+mod continuity;
+mod extraordinary;
 mod layout;
 mod limit_view;
 mod patch_view;
 mod reflection;
+mod report;
+mod statistics;
 
+pub use continuity::{Continuity, FRACTIONS, JointPlace, Joints, Metric};
+pub use extraordinary::{
+    Behaviour, Cause, Extraordinary, ExtraordinaryPoint, LEVELS, PointWithoutPlane, Ring, Sector, SectorKind,
+};
 pub use layout::{Joint, Layout, Side, Square};
 pub use limit_view::LimitView;
 pub use patch_view::{PatchView, PatchViewError};
 pub use reflection::{Field, FieldJet, Hit, HitJet, NormalJet, PlaneLight, Ray, Viewer};
+pub use report::{Report, ReportOptions};
+pub use statistics::{Bend, CurvatureStatistics, Distribution, Histogram};
 
 use crate::limit::{Derivatives, Samples};
 use crate::mesh::FaceId;
