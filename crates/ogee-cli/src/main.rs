@@ -14,6 +14,7 @@
 //! | `report` | figures as text and as JSON |
 //! | `progress` | a spinner for long work |
 //! | `timestamp` | the time that is written into files |
+//! | `drawing` | curves in a picture |
 //! | `view` | options of cameras and lights |
 //! | `system` | what the machine has and what was used of it |
 
@@ -21,6 +22,7 @@ mod addresses;
 mod arguments;
 mod cage;
 mod commands;
+mod drawing;
 mod error;
 mod evaluation;
 mod inspection;

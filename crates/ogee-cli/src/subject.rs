@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use ogee::quality::{LimitView, PatchView, Surface};
+use ogee::quality::{LimitView, PatchView, Surface, bounding_box};
 use ogee::{Level, LimitSurface, PatchTable, Vec3};
 use ogee_formats::CageFormat;
 use serde::Deserialize;
@@ -111,8 +111,8 @@ impl Subject {
 
     /// The box around the surface; a failure if it is not finite.
     pub(crate) fn bounds(&self, surface: &dyn Surface) -> Result<[Vec3; 2], Failure> {
-        let bounds = ogee_render::bounding_box(surface);
-        let is_sound = bounds.iter().all(|corner| corner.is_finite()) && bounds[0] != bounds[1];
-        is_sound.then_some(bounds).ok_or_else(|| self.failure("no_size", "the surface has no size"))
+        let bounds = bounding_box(surface).filter(|bounds| bounds[0] != bounds[1]);
+        bounds
+            .ok_or_else(|| self.failure("no_size", "the surface has no size, or points that are not finite"))
     }
 }

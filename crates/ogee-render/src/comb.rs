@@ -3,14 +3,13 @@
 //! The curves are those in the middle of faces and those between them. A hair stands where the curve bends away from the
 //! outside, and points inward where it bends the other way.
 
-use ogee::quality::{Square, Surface};
+use ogee::quality::{Square, Surface, bounding_box};
 use ogee::{Derivatives, Location, Samples, SurfaceJet, Vec3};
 
 use crate::View;
 use crate::colour::{Colour, decode, mix};
 use crate::pattern::line;
 use crate::raster::Fragment;
-use crate::render::bounding_box;
 
 /// Hairs along a curve across a square.
 const HAIRS: usize = 24;
@@ -23,7 +22,7 @@ pub(crate) fn draw(
     shown: &[Fragment],
     colours: &mut [Colour],
 ) {
-    let [lower, upper] = bounding_box(surface);
+    let Some([lower, upper]) = bounding_box(surface) else { return };
     let diagonal = upper.distance(lower);
     let mut depths = vec![f64::INFINITY; colours.len()];
     for fragment in shown {

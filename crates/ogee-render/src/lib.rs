@@ -10,6 +10,7 @@
 //! | `render` | [`render`]: the passes, [`Picture`] |
 //! | `polygon`, `raster` | [`Polygon`], [`Fragment`]: which face and parameters a pixel shows |
 //! | `solve` | from there to the point that the pixel shows exactly |
+//! | `depth` | [`DepthImage`]: what is in sight |
 //! | `displacement` | [`displacement`]: how far lines are from their place, in pixels |
 //! | `comb`, `legend` | combs; the scale of a map |
 //! | `camera` | [`Camera`], [`View`]: where a point is in the picture |
@@ -21,6 +22,7 @@
 mod camera;
 pub mod colour;
 mod comb;
+mod depth;
 mod displacement;
 mod image;
 mod legend;
@@ -34,10 +36,11 @@ mod solve;
 mod style;
 
 pub use camera::{ANGLE, Camera, Projection, THREE_QUARTER, View};
+pub use depth::DepthImage;
 pub use displacement::{Displacement, Spread, displacement};
 pub use image::{Image, ImageError, Light};
 pub use polygon::Polygon;
 pub use raster::Fragment;
-pub use render::{DISPLACEMENT, MOST_PIXELS, Picture, RenderError, Stages, bounding_box, outline, render};
+pub use render::{DISPLACEMENT, MOST_PIXELS, Picture, RenderError, Stages, outline, render};
 pub use sight::seen;
 pub use style::{Pattern, Quantity, Sampling, Scene, Style, default_light};

@@ -6,6 +6,7 @@ pub(crate) mod convert;
 pub(crate) mod eval;
 pub(crate) mod info;
 pub(crate) mod inspect;
+pub(crate) mod lines;
 mod man;
 pub(crate) mod refine;
 pub(crate) mod render;
@@ -22,6 +23,7 @@ pub(crate) fn run(command: &Command, console: &Console) -> Result<ExitCode, Fail
         Command::Info(info) => info.run(console),
         Command::Refine(refine) => refine.run(console),
         Command::Eval(eval) => eval.run(console),
+        Command::Lines(lines) => lines.run(console),
         Command::Convert(convert) => convert.run(console),
         Command::Inspect(inspect) => inspect.run(console),
         Command::Render(render) => render.run(console),

@@ -1,10 +1,8 @@
 //! `Report`: everything that is measured on a surface, in one value.
 
 use super::continuity::Gauge;
-use super::{Continuity, CurvatureStatistics, Extraordinary, Field, Surface};
-use crate::limit::{Derivatives, Samples};
+use super::{Continuity, CurvatureStatistics, Extraordinary, Field, Surface, bounding_box};
 use crate::math::Vec3;
-use crate::patch::Location;
 
 /// What a report is made with.
 #[derive(Clone, Debug)]
@@ -72,29 +70,4 @@ impl Report {
     pub fn size(&self) -> f64 {
         self.bounding_box[1].distance(self.bounding_box[0])
     }
-}
-
-/// The box of a surface by samples, five along each side of a square; `None` if it has no face or a point is not finite.
-fn bounding_box(surface: &dyn Surface) -> Option<[Vec3; 2]> {
-    /// Squares that are sampled at once.
-    const BLOCK: usize = 1024;
-    const STEPS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
-    let mut samples = Samples::default();
-    let mut found: Option<[Vec3; 2]> = None;
-    for block in surface.layout().squares().chunks(BLOCK) {
-        let grid = |t: f64| STEPS.map(|s| [s, t]);
-        let places: Vec<Location> = block
-            .iter()
-            .flat_map(|square| STEPS.into_iter().flat_map(grid).map(|[s, t]| square.at(s, t)))
-            .collect();
-        surface.evaluate(&places, Derivatives::None, &mut samples);
-        for &point in &samples.position {
-            if !point.is_finite() {
-                return None;
-            }
-            let [low, high] = found.unwrap_or([point; 2]);
-            found = Some([low.min(point), high.max(point)]);
-        }
-    }
-    found
 }
