@@ -1,6 +1,6 @@
 //! Curves on a surface as curves in a picture.
 
-use ogee::quality::{LevelLine, LineOptions, Side, Surface, Viewer};
+use ogee::quality::{Field, LevelLine, Levels, LineOptions, LinesError, Side, Surface, Viewer, level_lines};
 use ogee::{Derivatives, Samples, Vec3};
 use ogee_formats::lines::Path;
 use ogee_render::View;
@@ -17,6 +17,21 @@ pub(crate) fn projected(lines: &[LevelLine], view: &View) -> Vec<Path> {
             paths(points, line.closed, Some(line.value), view)
         })
         .collect()
+}
+
+/// The outline of a surface in pixels, inside its shape too, as far as lines there would be wanted.
+pub(crate) fn outline(
+    surface: &dyn Surface,
+    view: &View,
+    options: &LineOptions<'_>,
+) -> Result<Vec<Path>, LinesError> {
+    // By themselves points on the outline face nobody.
+    let options = LineOptions { front: None, ..*options };
+    let field = Field::Facing { viewer: view.viewer() };
+    let mut paths =
+        projected(&level_lines(surface, &field, &Levels::Listed(vec![0.0]), &options)?.lines, view);
+    paths.iter_mut().for_each(|path| path.value = None);
+    Ok(paths)
 }
 
 /// The borders and sharp edges of a surface in pixels, as far as lines there would be wanted.

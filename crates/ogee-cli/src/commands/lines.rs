@@ -7,15 +7,16 @@ use std::time::Instant;
 use clap::Args;
 use ogee::Vec3;
 use ogee::quality::{
-    Fairness, Field, LevelLine, LevelLines, Levels, LineOptions, Ray, Surface, Viewer, level_lines,
+    Fairness, Field, LevelLine, LevelLines, Levels, LineOptions, LinesError, Ray, Surface, Viewer,
+    level_lines,
 };
-use ogee_formats::lines::{Drawing, LineFormat, write_json, write_obj, write_svg};
+use ogee_formats::lines::{Drawing, LineFormat, Path, write_json, write_obj, write_svg};
 use ogee_render::{DepthImage, View, outline};
 use serde::Serialize;
 
 use crate::arguments::OutputArguments;
 use crate::cage::CageArguments;
-use crate::drawing::{edges, projected};
+use crate::drawing::{self, projected};
 use crate::error::{Failure, Finding};
 use crate::names::{Format, formats};
 use crate::output::Destination;
@@ -218,11 +219,17 @@ impl Lines {
         let (field, levels) = self.field(screen.viewer(), bounds);
         let all = levels.iter().map(|levels| level_lines(surface, &field, levels, &options));
         let all = all.collect::<Result<Vec<_>, _>>();
-        let lines = merged(all.map_err(|error| subject.failure(error.code(), error.to_string()))?);
+        let refused = |error: LinesError| subject.failure(error.code(), error.to_string());
+        let lines = merged(all.map_err(refused)?);
         if lines.lines.is_empty() {
             return Err(subject.failure("no_lines", why_none(&lines)));
         }
         let fairness = Fairness::of_all(&lines.lines, surface, &field);
+        let mut edges = Vec::new();
+        if format == LineFormat::Svg {
+            edges = drawing::edges(surface, &screen, &options);
+            edges.extend(drawing::outline(surface, &screen, &options).map_err(refused)?);
+        }
         let trace = start.elapsed().as_secs_f64();
 
         let start = Instant::now();
@@ -232,29 +239,24 @@ impl Lines {
                 let lines = lines.lines.iter().zip(fairness.iter().copied());
                 write_json(lines, |at| surface.address(at), out)
             }
-            LineFormat::Svg => self.draw(surface, &screen, &options, &lines.lines, out),
+            LineFormat::Svg => self.draw(&screen, &edges, &lines.lines, out),
         })?;
         let write = start.elapsed().as_secs_f64();
         let seconds = Seconds { read: subject.read_seconds, prepare, trace, write };
         Ok(Found { lines, fairness, tolerance, file_bytes, seconds })
     }
 
-    fn draw(
-        &self,
-        surface: &dyn Surface,
-        view: &View,
-        options: &LineOptions<'_>,
-        lines: &[LevelLine],
-        out: impl Write,
-    ) -> io::Result<()> {
+    fn draw(&self, view: &View, edges: &[Path], lines: &[LevelLine], out: impl Write) -> io::Result<()> {
         let title = match self.style {
             LineStyle::Reflection => "Reflection lines of",
             LineStyle::Highlight => "Highlight lines of",
             LineStyle::Isophote => "Isophotes of",
         };
         let title = format!("{title} {}", self.cage.stem());
-        let (lines, edges) = (projected(lines, view), edges(surface, view, options));
-        write_svg(&Drawing { size: self.view.size, title: &title, edges: &edges, lines: &lines }, out)
+        write_svg(
+            &Drawing { size: self.view.size, title: &title, edges, lines: &projected(lines, view) },
+            out,
+        )
     }
 
     /// The field, and which lines of it: one set, or both sides of stripes.

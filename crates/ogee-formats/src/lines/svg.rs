@@ -27,7 +27,7 @@ pub struct Drawing<'a> {
 }
 
 /// Colours and widths: edges, then lines.
-const STROKES: [(&str, &str, f64); 2] = [("edges", "#b4bcc4", 1.0), ("lines", "#12395b", 1.1)];
+const STROKES: [(&str, &str, f64); 2] = [("edges", "#8d99a6", 1.4), ("lines", "#12395b", 0.9)];
 
 /// Of the smaller side of a picture of usual size, in pixels; strokes are as wide in proportion in all others.
 const USUAL: f64 = 700.0;

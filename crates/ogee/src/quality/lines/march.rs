@@ -6,11 +6,12 @@
 use super::cells::{Cell, Cells, Plan};
 use super::lattice::{Edge, Place};
 
-/// A line crosses an edge: index of its value, and the edge under its common name. Nothing else is at the same key.
+/// A line crosses an edge: the edge under its common name, and the index of the line's value. Nothing else is at the same
+/// key. Sorted, crossings of a square stand together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Key {
-    pub(super) index: i64,
     pub(super) edge: Edge,
+    pub(super) index: i64,
 }
 
 /// A crossing, as one cell sees it.

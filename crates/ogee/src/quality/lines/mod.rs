@@ -229,6 +229,7 @@ fn unbounded(field: &Field) -> Option<(Field, Option<f64>)> {
                 .then_some((Field::Plane { light, viewer, ray, axis }, None))
         }
         Field::Isophote { light } => light.normalized().map(|_| (*field, Some(1.0))),
+        Field::Facing { viewer } => is_sound(&viewer).then_some((*field, Some(1.0))),
         Field::Zebra { viewer, axis } => {
             (is_sound(&viewer) && axis.normalized().is_some()).then_some((*field, Some(1.0)))
         }

@@ -71,16 +71,32 @@ impl<'a> Probe<'a> {
     /// Everything at one place.
     pub(super) fn spot(&mut self, at: Location) -> Spot {
         self.surface.evaluate(&[at], Derivatives::Second, &mut self.samples);
-        let all = &self.samples;
-        let (position, normal, flags) = (all.position[0], all.normal[0], all.flags[0]);
-        let (du, dv) = (all.du[0], all.dv[0]);
-        let jet = SurfaceJet { position, du, dv, duu: all.duu[0], duv: all.duv[0], dvv: all.dvv[0] };
-        // At an extraordinary vertex tangents are no derivatives.
-        let has_slope = !flags.contains(Flags::AT_EXTRAORDINARY);
-        let jet = has_slope.then(|| NormalJet::of(&jet)).flatten().and_then(|jet| self.field.jet(&jet));
-        let slope = jet.filter(|jet| jet.du.is_finite() && jet.dv.is_finite());
-        let slope = slope.map(|FieldJet { du: a, dv: b, .. }| Slope { tangents: [du, dv], field: [a, b] });
-        Spot { at, position, normal, value: value(self.field, position, normal, flags), slope }
+        spot(self.field, &self.samples, at, 0)
+    }
+
+    /// Everything at some places: quicker than one by one where those of a face stand together, and the same.
+    pub(super) fn spots(&mut self, at: &[Location]) -> impl Iterator<Item = Spot> {
+        self.surface.evaluate(at, Derivatives::Second, &mut self.samples);
+        at.iter().enumerate().map(|(k, &at)| spot(self.field, &self.samples, at, k))
+    }
+}
+
+/// What evaluation found at a place.
+fn spot(field: &Field, samples: &Samples, at: Location, k: usize) -> Spot {
+    let (position, normal, flags) = (samples.position[k], samples.normal[k], samples.flags[k]);
+    let (du, dv) = (samples.du[k], samples.dv[k]);
+    let jet = SurfaceJet { position, du, dv, duu: samples.duu[k], duv: samples.duv[k], dvv: samples.dvv[k] };
+    // At an extraordinary vertex tangents are no derivatives.
+    let has_turns = !flags.contains(Flags::AT_EXTRAORDINARY) && !flags.contains(Flags::NORMAL_UNDEFINED);
+    let turns = has_turns.then(|| jet.normal_derivatives()).flatten();
+    let jet = turns.and_then(|turns| field.jet(&NormalJet { position, tangents: [du, dv], normal, turns }));
+    let slope = jet.filter(|jet| jet.du.is_finite() && jet.dv.is_finite());
+    Spot {
+        at,
+        position,
+        normal,
+        value: slope.map_or_else(|| value(field, position, normal, flags), |slope| Some(slope.value)),
+        slope: slope.map(|FieldJet { du: a, dv: b, .. }| Slope { tangents: [du, dv], field: [a, b] }),
     }
 }
 
