@@ -8,11 +8,13 @@
 //! | `addresses` | where to evaluate: files of points, grids |
 //! | `cage` | opening and reading a cage |
 //! | `evaluation` | samples in a stream |
+//! | `inspection` | figures on quality: as JSON, as a table, as a page |
 //! | `output` | whole files or none |
 //! | `error` | failures, with their place and exit code |
 //! | `report` | figures as text and as JSON |
 //! | `progress` | a spinner for long work |
 //! | `timestamp` | the time that is written into files |
+//! | `drawing` | curves in a picture |
 //! | `view` | options of cameras and lights |
 //! | `system` | what the machine has and what was used of it |
 
@@ -20,8 +22,10 @@ mod addresses;
 mod arguments;
 mod cage;
 mod commands;
+mod drawing;
 mod error;
 mod evaluation;
+mod inspection;
 mod names;
 mod output;
 mod progress;

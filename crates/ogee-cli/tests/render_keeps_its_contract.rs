@@ -67,6 +67,16 @@ fn patches_of_a_part_look_like_the_cage_they_came_from() {
 }
 
 #[test]
+fn a_part_stands_beside_its_cage() {
+    let folder = Folder::with_cube();
+    folder.ogee("convert cube.obj -o part.json").expect(0);
+    folder.ogee("render cube.obj --beside part.json --style mean --size 50x40 -o both.png").expect(0);
+    assert_eq!(size(&folder.read("both.png")), [100, 40]);
+    let run = folder.ogee("render cube.obj --beside missing.json -o none.png").expect(3);
+    assert!(run.first_line().starts_with("missing.json: "), "{}", run.stderr);
+}
+
+#[test]
 fn light_can_be_a_picture() {
     let folder = Folder::with_cube();
     folder.ogee("render cube.obj --style isophote --size 40x40 -o light.png").expect(0);

@@ -27,6 +27,7 @@
 //! | parts: STEP | checked with [`step::check`] | [`step::write`] |
 //! | parts: patches in JSON | [`patches::read`] | [`patches::write`] |
 //! | parts: BezierView | | [`bv::write`] |
+//! | lines on a surface: SVG, OBJ, JSON | | [`lines::write_svg`], [`lines::write_obj`], [`lines::write_json`] |
 //! | samples: JSON lines, CSV | [`samples::AddressReader`] | [`samples::write_sample`] |
 //!
 //! What each of them accepts and writes is described in `docs/formats.md` of the repository.
@@ -38,6 +39,7 @@ mod error;
 mod finite;
 mod glb;
 pub mod json;
+pub mod lines;
 mod mesh;
 mod number;
 pub mod obj;

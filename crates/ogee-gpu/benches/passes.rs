@@ -4,10 +4,10 @@
 //! The surface, a bump around a vertex of valence five, fills the picture, so that as many pixels are covered as it has.
 
 use divan::Bencher;
-use ogee::quality::LimitView;
+use ogee::quality::{LimitView, bounding_box};
 use ogee::{ControlMesh, Level, LimitSurface, PatchTable, Vec3, shapes};
 use ogee_gpu::{Device, DeviceOptions, GpuSurface, Pass, Renderer, Storage};
-use ogee_render::{Camera, Pattern, Projection, Sampling, Scene, Style, bounding_box, default_light};
+use ogee_render::{Camera, Pattern, Projection, Sampling, Scene, Style, default_light};
 
 fn main() {
     divan::main();
@@ -29,7 +29,7 @@ fn bump(rings: u32) -> ControlMesh {
 }
 
 fn scene(view: &LimitView<'_>, side: u32, sampling: Sampling) -> Scene {
-    let bounds = bounding_box(view);
+    let bounds = bounding_box(view).expect("a bump has a size");
     let pattern = Pattern::Lines { period: 0.15, width: 0.3, phase: 0.0 };
     let camera = Camera {
         eye: Vec3::new(0.0, -1.0, 4.0),

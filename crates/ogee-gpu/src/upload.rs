@@ -1,6 +1,6 @@
 //! `GpuSurface`: a surface on the device.
 
-use ogee::quality::{Layout, LimitView, Side, Surface};
+use ogee::quality::{Layout, LimitView, Side, Surface, bounding_box};
 
 use crate::GpuError;
 use crate::device::{Device, Storage};
@@ -25,7 +25,7 @@ impl<'a> GpuSurface<'a> {
     /// # Errors
     /// If it is larger than the device takes.
     pub fn new(device: &Device, view: &'a LimitView<'a>) -> Result<GpuSurface<'a>, GpuError> {
-        let frame = Frame::new(ogee_render::bounding_box(view));
+        let frame = Frame::new(bounding_box(view).unwrap_or_default());
         let flat = Flat::new(view.surface(), &frame);
         let squares: Vec<Square> =
             (0..view.layout().squares().len() as u32).map(|number| square(view.layout(), number)).collect();

@@ -5,11 +5,11 @@ mod common;
 use std::sync::Arc;
 
 use common::{device, with_view};
+use ogee::quality::bounding_box;
 use ogee::{ControlMesh, Crease, FaceList, Sharpness, Vec3, shapes};
 use ogee_gpu::{DeviceOptions, GpuSurface, Renderer, Storage};
 use ogee_render::{
-    Camera, Image, Light, Pattern, Projection, Quantity, Sampling, Scene, Style, bounding_box, default_light,
-    render,
+    Camera, Image, Light, Pattern, Projection, Quantity, Sampling, Scene, Style, default_light, render,
 };
 
 const SIZE: [u32; 2] = [300, 300];
@@ -91,7 +91,7 @@ fn compare(
     let renderer = Renderer::new(&device).expect("a renderer");
     with_view(mesh, |view, _| {
         let on_device = GpuSurface::new(&device, view).expect("room for the surface");
-        let bounds = bounding_box(view);
+        let bounds = bounding_box(view).expect("a surface");
         let camera = Scene::of(view, SIZE).camera;
         let wanted = styles(bounds).into_iter().filter(|(name, _)| which.is_empty() || which.contains(name));
         for ((style_name, style), &other) in wanted.zip(others.iter().cycle()) {

@@ -3,13 +3,13 @@
 mod common;
 
 use common::{device, with_view};
-use ogee::quality::LimitView;
+use ogee::quality::{LimitView, bounding_box};
 use ogee::shapes;
 use ogee_gpu::{Device, DeviceOptions, GpuSurface, Renderer, Storage};
-use ogee_render::{Pattern, Picture, Scene, Style, bounding_box, default_light, render};
+use ogee_render::{Pattern, Picture, Scene, Style, default_light, render};
 
 fn stripes(view: &LimitView<'_>) -> Scene {
-    let bounds = bounding_box(view);
+    let bounds = bounding_box(view).expect("a surface");
     let period = bounds[1].distance(bounds[0]) / 12.0;
     let pattern = Pattern::Lines { period, width: 0.3, phase: 0.0 };
     let style = Style::Reflection { light: default_light(bounds), pattern };

@@ -10,9 +10,11 @@
 //! | `render` | [`render`]: the passes, [`Picture`] |
 //! | `polygon`, `raster` | [`Polygon`], [`Fragment`]: which face and parameters a pixel shows |
 //! | `solve` | from there to the point that the pixel shows exactly |
+//! | `depth` | [`DepthImage`]: what is in sight |
 //! | `displacement` | [`displacement`]: how far lines are from their place, in pixels |
 //! | `comb`, `legend` | combs; the scale of a map |
 //! | `camera` | [`Camera`], [`View`]: where a point is in the picture |
+//! | `sight` | [`seen`]: which points nothing hides |
 //! | `style` | [`Scene`], [`Style`], [`Pattern`]: what is shown |
 //! | [`pattern`], [`colour`], [`shade`] | how bright, which colour: functions with twins in shaders |
 //! | `image` | [`Image`]: pixels, PNG |
@@ -20,6 +22,7 @@
 mod camera;
 pub mod colour;
 pub mod comb;
+mod depth;
 mod displacement;
 mod image;
 mod legend;
@@ -28,16 +31,18 @@ mod polygon;
 mod raster;
 mod render;
 pub mod shade;
+mod sight;
 mod solve;
 mod style;
 
 pub use camera::{ANGLE, Camera, Projection, THREE_QUARTER, View};
+pub use depth::DepthImage;
 pub use displacement::{Displacement, Spread, displacement};
 pub use image::{Image, ImageError, Light};
 pub use polygon::Polygon;
 pub use raster::Fragment;
 pub use render::{
-    DISPLACEMENT, MOST_PIXELS, Picture, RenderError, Stages, bounding_box, check, limit, outline, polygon,
-    render,
+    DISPLACEMENT, MOST_PIXELS, Picture, RenderError, Stages, check, limit, outline, polygon, render,
 };
+pub use sight::seen;
 pub use style::{Pattern, Quantity, Sampling, Scene, Style, default_light};

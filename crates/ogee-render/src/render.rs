@@ -524,15 +524,6 @@ pub fn outline(surface: &dyn Surface) -> Vec<Vec3> {
     Polygon::new(surface, &all, 2, false).points
 }
 
-/// The box around a surface, to about what a mesh of it says.
-pub fn bounding_box(surface: &dyn Surface) -> [Vec3; 2] {
-    let points = outline(surface);
-    let first = points.first().copied().unwrap_or_default();
-    let (lower, upper) =
-        points.iter().fold((first, first), |(lower, upper), &p| (lower.min(p), upper.max(p)));
-    [lower, upper]
-}
-
 impl Scene {
     /// A shaded picture from a three-quarter view in which the surface fits.
     pub fn of(surface: &dyn Surface, size: [u32; 2]) -> Scene {

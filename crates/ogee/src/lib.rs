@@ -128,6 +128,9 @@ mod doctests {
     #[doc = include_str!("../../../docs/methods/exact_evaluation.md")]
     struct ExactEvaluation;
 
+    #[doc = include_str!("../../../docs/methods/reflection_lines.md")]
+    struct ReflectionLines;
+
     #[doc = include_str!("../../../docs/methods/pccm.md")]
     struct Pccm;
 

@@ -194,6 +194,11 @@ pub enum Field {
         /// The axis of the environment.
         axis: Vec3,
     },
+    /// The cosine between the normal and the view: its line of value 0 is the outline.
+    Facing {
+        /// Who looks.
+        viewer: Viewer,
+    },
 }
 
 /// A field at a point, with derivatives along the parameters of the surface.
@@ -217,6 +222,7 @@ impl Field {
             }
             Field::Isophote { light } => Some(normal.dot(*light)),
             Field::Zebra { viewer, axis } => Some(viewer.reflected(point, normal).dot(*axis)),
+            Field::Facing { viewer } => Some(viewer.direction(point).0.dot(normal)),
         }
     }
 
@@ -234,6 +240,16 @@ impl Field {
             Field::Zebra { viewer, axis } => {
                 let [value, du, dv] = viewer.reflected_jet(jet).map(|vector| vector.dot(*axis));
                 Some(FieldJet { value, du, dv })
+            }
+            Field::Facing { viewer } => {
+                let NormalJet { position, tangents, normal, turns } = *jet;
+                let (view, nearness) = viewer.direction(position);
+                let value = view.dot(normal);
+                let along = |k: usize| {
+                    let swing = nearness * (tangents[k] - view.dot(tangents[k]) * view);
+                    swing.dot(normal) + view.dot(turns[k])
+                };
+                Some(FieldJet { value, du: along(0), dv: along(1) })
             }
         }
     }
@@ -286,6 +302,7 @@ mod tests {
         let mut fields = vec![Field::Isophote { light: Vec3::new(0.48, 0.6, 0.64) }];
         for viewer in viewers {
             fields.push(Field::Zebra { viewer, axis: Vec3::new(0.0, 0.6, 0.8) });
+            fields.push(Field::Facing { viewer });
             for (ray, axis) in [(Ray::Reflected, 0), (Ray::Reflected, 1), (Ray::Normal, 0)] {
                 fields.push(Field::Plane { light, viewer, ray, axis });
             }
