@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use clap::error::ErrorKind;
 use clap::{Args, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::commands::{check, completions, convert, eval, info, lines, refine, render};
+use crate::commands::{check, completions, convert, eval, info, inspect, lines, refine, render};
 use crate::error::{Exit, Failure};
 use crate::{names, output, report};
 
@@ -55,6 +55,7 @@ pub(crate) enum Command {
     Refine(refine::Refine),
     Eval(eval::Eval),
     Convert(convert::Convert),
+    Inspect(inspect::Inspect),
     Render(Box<render::Render>),
     Lines(Box<lines::Lines>),
     Check(check::Check),

@@ -79,6 +79,11 @@ impl CageArguments {
         Ok(Cage { name, file, seconds: start.elapsed().as_secs_f64() })
     }
 
+    /// The same rules for another file, whose name tells its format.
+    pub(crate) fn for_file(&self, file: &Path) -> CageArguments {
+        CageArguments { cage: file.to_owned(), input_format: None, ..*self }
+    }
+
     /// True if the cage comes from stdin.
     pub(crate) fn is_stdin(&self) -> bool {
         self.cage == Path::new("-")

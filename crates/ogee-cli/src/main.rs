@@ -8,6 +8,7 @@
 //! | `addresses` | where to evaluate: files of points, grids |
 //! | `cage` | opening and reading a cage |
 //! | `evaluation` | samples in a stream |
+//! | `inspection` | figures on quality: as JSON, as a table, as a page |
 //! | `output` | whole files or none |
 //! | `error` | failures, with their place and exit code |
 //! | `report` | figures as text and as JSON |
@@ -24,6 +25,7 @@ mod commands;
 mod drawing;
 mod error;
 mod evaluation;
+mod inspection;
 mod names;
 mod output;
 mod progress;

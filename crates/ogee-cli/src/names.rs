@@ -116,7 +116,7 @@ pub(crate) fn formats<F: Format + Send + Sync>() -> Names<F> {
 }
 
 /// Commands and options that the program has but not this build.
-const ELSEWHERE: [&str; 7] = ["network", "lens", "inspect", "batch", "view", "--lens", "--iges"];
+const ELSEWHERE: [&str; 6] = ["network", "lens", "batch", "view", "--lens", "--iges"];
 
 /// What to say where an unknown word is one of another build.
 pub(crate) fn not_in_this_build(error: &Error) -> Option<String> {

@@ -167,14 +167,20 @@ fn print(report: &impl Serialize) -> Result<(), Failure> {
 
 /// A number with six digits, in powers of ten where it is very large or small.
 pub(crate) fn figure(x: f64) -> String {
+    rounded(x, 6)
+}
+
+/// A number with as many digits, in powers of ten with less than half of them where it is very large or small.
+pub(crate) fn rounded(x: f64, digits: i32) -> String {
     let size = x.abs();
     if size == 0.0 {
         return "0".to_owned();
     }
     if !(1e-3..1e9).contains(&size) {
-        return format!("{x:.2e}");
+        let digits = (digits as usize).div_ceil(2) - 1;
+        return format!("{x:.digits$e}");
     }
-    let digits = (5 - size.log10().floor() as i32).max(0) as usize;
+    let digits = (digits - 1 - size.log10().floor() as i32).max(0) as usize;
     let text = format!("{x:.digits$}");
     match text.contains('.') {
         true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use ogee::quality::{LimitView, PatchView, Surface};
+use ogee::quality::{LimitView, PatchView, Surface, bounding_box};
 use ogee::{Level, LimitSurface, PatchTable, Vec3};
 use ogee_formats::CageFormat;
 use serde::Deserialize;
@@ -76,6 +76,14 @@ impl Subject {
         }
     }
 
+    /// How many faces the cage has, or how many patches there are.
+    pub(crate) fn faces(&self) -> usize {
+        match &self.kind {
+            Kind::Cage { cage, .. } => cage.mesh().faces.len(),
+            Kind::Patches(view) => view.patches().len(),
+        }
+    }
+
     /// Lets somebody look at the surface.
     pub(crate) fn look<T>(&self, look: impl FnOnce(&dyn Surface) -> T) -> T {
         match &self.kind {
@@ -103,8 +111,8 @@ impl Subject {
 
     /// The box around the surface; a failure if it is not finite.
     pub(crate) fn bounds(&self, surface: &dyn Surface) -> Result<[Vec3; 2], Failure> {
-        let bounds = ogee_render::bounding_box(surface);
-        let is_sound = bounds.iter().all(|corner| corner.is_finite()) && bounds[0] != bounds[1];
-        is_sound.then_some(bounds).ok_or_else(|| self.failure("no_size", "the surface has no size"))
+        let bounds = bounding_box(surface).filter(|bounds| bounds[0] != bounds[1]);
+        bounds
+            .ok_or_else(|| self.failure("no_size", "the surface has no size, or points that are not finite"))
     }
 }

@@ -204,13 +204,13 @@ mod tests {
         assert!((camera.eye - fitted.eye - (camera.at - fitted.at)).length() < 1e-12);
         let plane = light.plane(BOUNDS);
         assert_eq!((plane.centre.z, plane.half, light.period(BOUNDS)), (8.0, [4.0; 2], 2.0));
-        let from_above = parse("--eye 2,6,30").unwrap().view.camera(&BOUNDS).unwrap();
+        let from_above = parse("--eye 2,6,30 --at 2,6,1").unwrap().view.camera(&BOUNDS).unwrap();
         assert_eq!(from_above.up, Vec3::new(0.0, 1.0, 0.0));
     }
 
     #[test]
     fn views_of_nothing_are_refused() {
-        for options in ["--eye 1,1,1 --at 1,1,1", "--eye 2,6,30 --up 0,0,1"] {
+        for options in ["--eye 1,1,1 --at 1,1,1", "--eye 2,6,30 --at 2,6,1 --up 0,0,1"] {
             assert!(parse(options).unwrap().view.camera(&BOUNDS).is_err(), "{options}");
         }
         let wrong = [

@@ -286,8 +286,6 @@ fn what_this_build_does_not_have_is_said() {
         "network cube.obj",
         "lens cube.obj",
         "render cube.obj -o a.png --device gpu",
-        "lines cube.obj",
-        "inspect cube.obj",
         "batch plan",
         "view",
     ] {

@@ -205,7 +205,11 @@ fn senseless_questions_get_clear_answers() {
         ("cube.obj --lines 1e12 -o out.svg", 3, "too many lines"),
         ("flat.obj --light-plane -5 -o out.svg", 3, "no ray from the surface meets the light plane"),
         ("flat.obj --style isophote -o out.svg", 3, "no line meets the surface"),
-        ("flat.obj --style highlight --front --eye 0.5,0.4,-9 -o out.obj", 3, "no line is where it was asked for"),
+        (
+            "flat.obj --style highlight --front --eye 0.5,0.4,-9 -o out.obj",
+            3,
+            "no line is where it was asked for",
+        ),
         ("point.obj -o out.svg", 3, "size"),
         ("none.obj -o out.svg", 3, "none.obj"),
     ] {

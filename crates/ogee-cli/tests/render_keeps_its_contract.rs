@@ -67,6 +67,16 @@ fn patches_of_a_part_look_like_the_cage_they_came_from() {
 }
 
 #[test]
+fn a_part_stands_beside_its_cage() {
+    let folder = Folder::with_cube();
+    folder.ogee("convert cube.obj -o part.json").expect(0);
+    folder.ogee("render cube.obj --beside part.json --style mean --size 50x40 -o both.png").expect(0);
+    assert_eq!(size(&folder.read("both.png")), [100, 40]);
+    let run = folder.ogee("render cube.obj --beside missing.json -o none.png").expect(3);
+    assert!(run.first_line().starts_with("missing.json: "), "{}", run.stderr);
+}
+
+#[test]
 fn light_can_be_a_picture() {
     let folder = Folder::with_cube();
     folder.ogee("render cube.obj --style isophote --size 40x40 -o light.png").expect(0);
@@ -97,7 +107,7 @@ fn what_makes_no_sense_is_refused_and_nothing_is_written() {
         ("render cube.obj -o a.png --eye 0,0,0 --at 1,0,0", 3, "inside"),
         ("render cube.obj -o a.png --eye 0,9,0 --at 0,18,0", 3, "no part of the surface"),
         ("render cube.obj -o a.png --style mean --sampling polygon:2", 3, "curvature"),
-        ("render cube.obj -o a.png --style reflection --light-plane -50", 3, "light plane"),
+        ("render cube.obj -o a.png --style reflection --light-plane 5,1e-9", 3, "light plane"),
         ("render missing.obj -o a.png", 3, "missing.obj"),
         ("render cube.obj -o missing/a.png", 4, "missing"),
     ] {

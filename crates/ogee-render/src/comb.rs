@@ -3,32 +3,21 @@
 //! The curves are those in the middle of faces and those between them. A hair stands where the curve bends away from the
 //! outside, and points inward where it bends the other way.
 
-use ogee::quality::{Square, Surface};
+use ogee::quality::{Square, Surface, bounding_box};
 use ogee::{Derivatives, Location, Samples, SurfaceJet, Vec3};
 
 use crate::View;
 use crate::colour::{Colour, decode, mix};
 use crate::pattern::line;
-use crate::raster::Fragment;
-use crate::render::bounding_box;
 
 /// Hairs along a curve across a square.
 const HAIRS: usize = 24;
 
-/// Draws combs over a picture. What lies behind the surface is left out.
-pub(crate) fn draw(
-    surface: &dyn Surface,
-    view: &View,
-    share: f64,
-    shown: &[Fragment],
-    colours: &mut [Colour],
-) {
-    let [lower, upper] = bounding_box(surface);
+/// Draws combs over a picture; hairs are `share` of the diagonal of the surface long, where 90 % of all are shorter. What lies
+/// behind the surface, whose depth along the view each pixel has, is left out.
+pub fn draw(surface: &dyn Surface, view: &View, share: f64, depths: &[f64], colours: &mut [Colour]) {
+    let Some([lower, upper]) = bounding_box(surface) else { return };
     let diagonal = upper.distance(lower);
-    let mut depths = vec![f64::INFINITY; colours.len()];
-    for fragment in shown {
-        depths[fragment.pixel as usize] = fragment.depth;
-    }
     let mut canvas = Canvas { view, depths, colours, slack: 4e-3 * diagonal };
     let (hairs_colour, tips) = ([40, 90, 160].map(linear), [190, 40, 30].map(linear));
     let mut curves: Vec<Vec<Hair>> = Vec::new();
@@ -106,7 +95,7 @@ fn hairs(surface: &dyn Surface, square: &Square, along: usize, across: f64) -> V
 /// A picture that lines are drawn into.
 struct Canvas<'a> {
     view: &'a View,
-    depths: Vec<f64>,
+    depths: &'a [f64],
     colours: &'a mut [Colour],
     /// Lines this far behind the surface are still seen: their roots lie on it.
     slack: f64,

@@ -1,4 +1,4 @@
-//! What the colours of a map mean, written into its lower left corner.
+//! What the colours of a map mean, and what a picture shows, written into its corners.
 
 use embedded_graphics::mono_font::iso_8859_1::{FONT_7X13, FONT_10X20};
 use embedded_graphics::mono_font::{MonoFont, MonoTextStyle};
@@ -8,6 +8,9 @@ use embedded_graphics::text::{Alignment, Text};
 
 use crate::colour::{DIVERGING, RISING, along, encode};
 use crate::{Image, Quantity, Style};
+
+/// The colour of letters.
+const INK: Rgb888 = Rgb888::new(40, 46, 54);
 
 /// A picture as the library of letters sees it.
 struct Paper<'a>(&'a mut Image);
@@ -67,18 +70,42 @@ impl Image {
         self.draw_scale(title, scale, &marks);
     }
 
+    /// Writes a line into the upper left corner, if there is room.
+    pub fn add_caption(&mut self, caption: &str) {
+        let Some(font) = self.font() else { return };
+        let letter = font.character_size;
+        let most = (self.size[0] / letter.width).saturating_sub(4) as usize;
+        let caption: String = caption.chars().take(most).collect();
+        let at = Point::new(2 * letter.height as i32, 2 * letter.height as i32 + letter.height as i32 / 2);
+        let Ok(_) = Text::new(&caption, at, MonoTextStyle::new(font, INK)).draw(&mut Paper(self));
+    }
+
+    /// Small pictures get small letters, smaller ones none.
+    fn font(&self) -> Option<&'static MonoFont<'static>> {
+        match self.size[0].min(self.size[1]) {
+            900.. => Some(&FONT_10X20),
+            300.. => Some(&FONT_7X13),
+            _ => None,
+        }
+    }
+
+    /// Two pictures of the same height as one.
+    #[must_use]
+    pub fn beside(&self, right: &Image) -> Image {
+        let row = |image: &Image| 4 * image.size[0] as usize;
+        let rows = self.pixels.chunks_exact(row(self)).zip(right.pixels.chunks_exact(row(right)));
+        let pixels = rows.flat_map(|(left, right)| left.iter().chain(right)).copied().collect();
+        Image { size: [self.size[0] + right.size[0], self.size[1].min(right.size[1])], pixels }
+    }
+
     fn draw_scale(&mut self, title: &str, scale: &[[f32; 3]; 5], marks: &[(f32, String)]) {
-        let [width, height] = self.size.map(|side| side as i32);
-        // Small pictures get small letters, smaller ones none.
-        let (font, bar): (&MonoFont<'_>, [i32; 2]) = match width.min(height) {
-            900.. => (&FONT_10X20, [320, 16]),
-            300.. => (&FONT_7X13, [220, 11]),
-            _ => return,
-        };
+        let height = self.size[1] as i32;
+        let Some(font) = self.font() else { return };
         let letter = font.character_size.height as i32;
+        let bar = [16 * letter, letter * 4 / 5];
         let margin = 2 * letter;
         let (left, top) = (margin, height - margin - bar[1] - letter);
-        let ink = MonoTextStyle::new(font, Rgb888::new(40, 46, 54));
+        let ink = MonoTextStyle::new(font, INK);
         let mut paper = Paper(self);
         let text = |paper: &mut Paper<'_>, text: &str, x: i32, y: i32, alignment: Alignment| {
             let Ok(_) = Text::with_alignment(text, Point::new(x, y), ink, alignment).draw(paper);
@@ -137,5 +164,15 @@ mod tests {
         let mut shaded = blank.clone();
         shaded.add_legend(&Style::Shaded, 0.25);
         assert_eq!(shaded, blank);
+        shaded.add_caption("a body");
+        assert_ne!(shaded, blank);
+    }
+
+    #[test]
+    fn pictures_stand_side_by_side() {
+        let (left, right) = (Image::filled([3, 2], [1; 4]), Image::filled([2, 2], [2; 4]));
+        let both = left.beside(&right);
+        assert_eq!((both.size, both.pixels.len()), ([5, 2], 40));
+        assert_eq!((both.pixel(2, 1), both.pixel(3, 1)), ([1; 4], [2; 4]));
     }
 }

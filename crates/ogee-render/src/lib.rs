@@ -14,13 +14,14 @@
 //! | `displacement` | [`displacement`]: how far lines are from their place, in pixels |
 //! | `comb`, `legend` | combs; the scale of a map |
 //! | `camera` | [`Camera`], [`View`]: where a point is in the picture |
+//! | `sight` | [`seen`]: which points nothing hides |
 //! | `style` | [`Scene`], [`Style`], [`Pattern`]: what is shown |
 //! | [`pattern`], [`colour`], [`shade`] | how bright, which colour: functions with twins in shaders |
 //! | `image` | [`Image`]: pixels, PNG |
 
 mod camera;
 pub mod colour;
-mod comb;
+pub mod comb;
 mod depth;
 mod displacement;
 mod image;
@@ -30,6 +31,7 @@ mod polygon;
 mod raster;
 mod render;
 pub mod shade;
+mod sight;
 mod solve;
 mod style;
 
@@ -39,5 +41,8 @@ pub use displacement::{Displacement, Spread, displacement};
 pub use image::{Image, ImageError, Light};
 pub use polygon::Polygon;
 pub use raster::Fragment;
-pub use render::{DISPLACEMENT, MOST_PIXELS, Picture, RenderError, Stages, bounding_box, outline, render};
+pub use render::{
+    DISPLACEMENT, MOST_PIXELS, Picture, RenderError, Stages, check, limit, outline, polygon, render,
+};
+pub use sight::seen;
 pub use style::{Pattern, Quantity, Sampling, Scene, Style, default_light};

@@ -7,7 +7,7 @@ use ogee::{Derivatives, Flags, Location, Samples, SurfaceJet, Vec3};
 use rayon::prelude::*;
 
 use crate::camera::{ANGLE, THREE_QUARTER};
-use crate::colour::{Colour, encode};
+use crate::colour::{Colour, encode, scaled};
 use crate::comb;
 use crate::polygon::Polygon;
 use crate::raster::{Fragment, fragments};
@@ -32,7 +32,7 @@ pub struct Picture {
     pub seconds: Stages,
 }
 
-/// Seconds of wall time.
+/// Seconds of wall time. Points and colours are made together; their time is shared out as their work was.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Stages {
     /// Points of the mesh, and which face and parameters each pixel shows.
@@ -148,30 +148,39 @@ pub fn render(surface: &dyn Surface, scene: &Scene) -> Result<Picture, RenderErr
     let start = Instant::now();
     let painter = Painter { surface, scene, view, polygon: &polygon };
     let looked: Vec<Looked> = shown.par_chunks(CHUNK).map(|chunk| painter.look(chunk)).collect();
-    seconds.position = start.elapsed().as_secs_f64();
-    let start = Instant::now();
-    picture.limit = painter.limit(&looked);
+    let values = looked.iter().flat_map(|looked| &looked.looks).filter_map(Look::value);
+    picture.limit = limit(&scene.style, values);
     let is_missed = looked.iter().all(|looked| looked.hits == 0);
     if is_missed
         && matches!(scene.style, Style::Reflection { .. } | Style::Highlight { .. } | Style::Error { .. })
     {
         return Err(RenderError::LightMissed);
     }
-    for (chunk, looked) in shown.chunks(CHUNK).zip(&looked) {
-        for (fragment, look) in chunk.iter().zip(&looked.looks) {
-            picture.colours[fragment.pixel as usize] = painter.colour(look, picture.limit);
-        }
+    let fragments = shown.iter().zip(looked.iter().flat_map(|looked| &looked.looks));
+    for (fragment, look) in fragments {
+        picture.colours[fragment.pixel as usize] = painter.finished(look, picture.limit);
     }
+    let all = start.elapsed().as_secs_f64();
+    let [points, colours] = [0, 1].map(|part| looked.iter().map(|looked| looked.seconds[part]).sum::<f64>());
+    seconds.position = all * points / (points + colours);
+    let start = Instant::now();
     if let Style::Combs { share } = scene.style {
-        comb::draw(surface, &view, share, &shown, &mut picture.colours);
+        let mut depths = vec![f64::INFINITY; pixels];
+        for fragment in &shown {
+            depths[fragment.pixel as usize] = fragment.depth;
+        }
+        comb::draw(surface, &view, share, &depths, &mut picture.colours);
     }
-    seconds.colour = start.elapsed().as_secs_f64();
+    seconds.colour = all - seconds.position + start.elapsed().as_secs_f64();
     picture.seconds = seconds;
     Ok(picture)
 }
 
-/// What can be known before the first point.
-fn check(surface: &dyn Surface, scene: &Scene) -> Result<View, RenderError> {
+/// What can be known before the first point: the camera in pixels.
+///
+/// # Errors
+/// If the picture would show nothing.
+pub fn check(surface: &dyn Surface, scene: &Scene) -> Result<View, RenderError> {
     let [width, height] = scene.size;
     if width == 0 || height == 0 {
         return Err(RenderError::EmptySize { width, height });
@@ -221,7 +230,11 @@ fn is_inside(surface: &dyn Surface, eye: Vec3) -> bool {
     angle.abs() > 2.0 * std::f64::consts::PI
 }
 
-fn polygon(surface: &dyn Surface, scene: &Scene, view: &View) -> Result<Polygon, RenderError> {
+/// The mesh that says what each pixel of a scene shows.
+///
+/// # Errors
+/// If it was asked to be finer than memory is meant for.
+pub fn polygon(surface: &dyn Surface, scene: &Scene, view: &View) -> Result<Polygon, RenderError> {
     let level = match (&scene.style, scene.sampling) {
         (Style::Error { level, .. }, _) => *level,
         (_, Sampling::Parameters(level) | Sampling::Polygon(level)) => level,
@@ -247,19 +260,30 @@ fn is_cut(layout: &Layout) -> bool {
 }
 
 /// What is known of a pixel before the limits of maps are.
-struct Look {
-    point: Point,
-    pixel: Footprint,
-    square: u32,
-    at: [f64; 2],
+#[derive(Clone, Copy)]
+enum Look {
+    /// All.
+    Colour(Colour),
+    /// The number that a map shows, and how bright the body is.
+    Value(Option<f64>, f32),
+}
+
+impl Look {
     /// The number that a map shows.
-    value: Option<f64>,
+    fn value(&self) -> Option<f64> {
+        match *self {
+            Look::Value(value, _) => value,
+            Look::Colour(_) => None,
+        }
+    }
 }
 
 struct Looked {
     looks: Vec<Look>,
     /// How many rays met the light plane.
     hits: usize,
+    /// Time for points and for colours.
+    seconds: [f64; 2],
 }
 
 struct Painter<'a> {
@@ -271,37 +295,28 @@ struct Painter<'a> {
 
 impl Painter<'_> {
     fn look(&self, chunk: &[Fragment]) -> Looked {
+        let start = Instant::now();
         let mut spots: Vec<Spot> = chunk.iter().map(|fragment| self.spot(fragment)).collect();
         let is_error = matches!(self.scene.style, Style::Error { .. });
-        if matches!(self.scene.sampling, Sampling::Exact) || is_error {
-            solve(self.surface, &self.view, &mut spots);
-        }
         let points: Vec<Point> = match self.scene.sampling {
             Sampling::Polygon(_) if !is_error => {
-                chunk.iter().map(|f| polygon_point(self.polygon, f)).collect()
+                chunk.iter().map(|fragment| polygon_point(self.polygon, fragment)).collect()
             }
-            _ => self.points(&spots),
+            Sampling::Parameters(_) if !is_error => self.points(&self.at_parameters(&spots)),
+            _ => self.points(&solve(self.surface, &self.view, &mut spots, self.wanted())),
         };
+        let solved = start.elapsed().as_secs_f64();
         let mut hits = 0;
         let looks = spots
             .iter()
             .zip(chunk)
-            .zip(points)
+            .zip(&points)
             .map(|((spot, fragment), point)| {
-                let value = self.value(fragment, &point);
-                if self.meets_light(&point) {
-                    hits += 1;
-                }
-                Look {
-                    point,
-                    pixel: Footprint::new(&self.view, &point),
-                    square: spot.square,
-                    at: spot.at,
-                    value,
-                }
+                hits += usize::from(self.meets_light(point));
+                self.colour(spot, fragment, point)
             })
             .collect();
-        Looked { looks, hits }
+        Looked { looks, hits, seconds: [solved, start.elapsed().as_secs_f64() - solved] }
     }
 
     fn spot(&self, fragment: &Fragment) -> Spot {
@@ -310,16 +325,27 @@ impl Painter<'_> {
         Spot { pixel, square: self.polygon.squares[fragment.place as usize], at: fragment.at }
     }
 
-    /// Points of the surface itself.
-    fn points(&self, spots: &[Spot]) -> Vec<Point> {
+    fn wanted(&self) -> Derivatives {
+        match self.scene.style {
+            Style::Shaded | Style::Wireframe | Style::Combs { .. } => Derivatives::First,
+            _ => Derivatives::Second,
+        }
+    }
+
+    fn at_parameters(&self, spots: &[Spot]) -> Samples {
         let squares = self.surface.layout().squares();
         let at: Vec<Location> =
             spots.iter().map(|spot| squares[spot.square as usize].at(spot.at[0], spot.at[1])).collect();
-        let bends = !matches!(self.scene.style, Style::Shaded | Style::Wireframe | Style::Combs { .. });
-        let what = if bends { Derivatives::Second } else { Derivatives::First };
         let mut samples = Samples::default();
-        self.surface.evaluate(&at, what, &mut samples);
-        (0..at.len())
+        self.surface.evaluate(&at, self.wanted(), &mut samples);
+        samples
+    }
+
+    /// Points of the surface itself.
+    fn points(&self, samples: &Samples) -> Vec<Point> {
+        let bends = self.wanted() == Derivatives::Second;
+        let is_map = matches!(self.scene.style, Style::Curvature { .. });
+        (0..samples.position.len())
             .map(|i| {
                 let (position, normal) = (samples.position[i], samples.normal[i]);
                 let tangents = [samples.du[i], samples.dv[i]];
@@ -335,7 +361,6 @@ impl Painter<'_> {
                     duv: samples.duv[i],
                     dvv: samples.dvv[i],
                 });
-                let is_map = matches!(self.scene.style, Style::Curvature { .. });
                 Point {
                     position,
                     tangents,
@@ -377,48 +402,40 @@ impl Painter<'_> {
         }
     }
 
-    /// Where the colours of a map end.
-    fn limit(&self, looked: &[Looked]) -> Option<f64> {
-        match self.scene.style {
-            Style::Curvature { limit: Some(limit), .. } => Some(limit),
-            Style::Error { .. } => Some(DISPLACEMENT),
-            Style::Curvature { quantity, limit: None } => {
-                let looks = looked.iter().flat_map(|looked| &looked.looks);
-                let mut sizes: Vec<f64> = looks.filter_map(|look| look.value).map(f64::abs).collect();
-                if quantity == Quantity::GaussSign {
-                    return sizes.into_iter().reduce(f64::max);
-                }
-                sizes.sort_unstable_by(f64::total_cmp);
-                let last = sizes.len().checked_sub(1)?;
-                Some(sizes[(0.95 * last as f64) as usize])
-            }
-            _ => None,
-        }
-    }
-
-    fn colour(&self, look: &Look, limit: Option<f64>) -> Colour {
-        let Look { point, pixel, square, at, value } = look;
+    fn colour(&self, spot: &Spot, fragment: &Fragment, point: &Point) -> Look {
         let view = &self.view;
-        let mapped = |colour| shade::on_body(view, point.position, point.normal, colour);
-        match &self.scene.style {
+        let pixel = || Footprint::new(view, point);
+        Look::Colour(match &self.scene.style {
             Style::Shaded | Style::Combs { .. } => shade::body(view, point.position, point.normal),
             Style::Wireframe => {
-                let square = &self.surface.layout().squares()[*square as usize];
-                let at = [at[0] * square.size[0], at[1] * square.size[1]];
-                shade::wire(view, at, square.size, square.edges, point, pixel)
+                let square = &self.surface.layout().squares()[spot.square as usize];
+                let at = [spot.at[0] * square.size[0], spot.at[1] * square.size[1]];
+                shade::wire(view, at, square.size, square.edges, point, &pixel())
             }
             Style::Reflection { light, pattern } => {
-                shade::lit(view, light, Ray::Reflected, pattern, point, pixel)
+                shade::lit(view, light, Ray::Reflected, pattern, point, &pixel())
             }
             Style::Highlight { light, pattern } => {
-                shade::lit(view, light, Ray::Normal, pattern, point, pixel)
+                shade::lit(view, light, Ray::Normal, pattern, point, &pixel())
             }
-            Style::Isophote { light, step } => shade::isophote(view, *light, *step, point, pixel),
-            Style::Zebra { axis, count } => shade::zebra(view, *axis, *count, point, pixel),
-            Style::Curvature { quantity, .. } => {
-                mapped(shade::map(*quantity, *value, limit.unwrap_or_default()))
+            Style::Isophote { light, step } => shade::isophote(view, *light, *step, point, &pixel()),
+            Style::Zebra { axis, count } => shade::zebra(view, *axis, *count, point, &pixel()),
+            Style::Curvature { .. } | Style::Error { .. } => {
+                let value = self.value(fragment, point);
+                return Look::Value(value, shade::body_light(view, point.position, point.normal));
             }
-            Style::Error { .. } => mapped(shade::displacement(*value, limit.unwrap_or(DISPLACEMENT))),
+        })
+    }
+
+    fn finished(&self, look: &Look, limit: Option<f64>) -> Colour {
+        match (*look, &self.scene.style) {
+            (Look::Colour(colour), _) => colour,
+            (Look::Value(value, light), Style::Curvature { quantity, .. }) => {
+                scaled(shade::map(*quantity, value, limit.unwrap_or_default()), light)
+            }
+            (Look::Value(value, light), _) => {
+                scaled(shade::displacement(value, limit.unwrap_or(DISPLACEMENT)), light)
+            }
         }
     }
 }
@@ -450,6 +467,24 @@ pub(crate) fn polygon_point(polygon: &Polygon, fragment: &Fragment) -> Point {
         normal,
         turns: (length > 0.0).then(|| [scale * turn(nu), scale * turn(nv)]),
         curvature: None,
+    }
+}
+
+/// Where the colours of a map end; `values` is what its pixels show.
+pub fn limit(style: &Style, values: impl Iterator<Item = f64>) -> Option<f64> {
+    match style {
+        Style::Curvature { limit: Some(limit), .. } => Some(*limit),
+        Style::Error { .. } => Some(DISPLACEMENT),
+        Style::Curvature { quantity: Quantity::GaussSign, limit: None } => {
+            values.map(f64::abs).reduce(f64::max)
+        }
+        Style::Curvature { limit: None, .. } => {
+            let mut sizes: Vec<f64> = values.map(f64::abs).collect();
+            sizes.sort_unstable_by(f64::total_cmp);
+            let last = sizes.len().checked_sub(1)?;
+            Some(sizes[(0.95 * last as f64) as usize])
+        }
+        _ => None,
     }
 }
 
@@ -487,15 +522,6 @@ impl Picture {
 pub fn outline(surface: &dyn Surface) -> Vec<Vec3> {
     let all: Vec<u32> = (0..surface.layout().squares().len() as u32).collect();
     Polygon::new(surface, &all, 2, false).points
-}
-
-/// The box around a surface, to about what a mesh of it says.
-pub fn bounding_box(surface: &dyn Surface) -> [Vec3; 2] {
-    let points = outline(surface);
-    let first = points.first().copied().unwrap_or_default();
-    let (lower, upper) =
-        points.iter().fold((first, first), |(lower, upper), &p| (lower.min(p), upper.max(p)));
-    [lower, upper]
 }
 
 impl Scene {

@@ -119,7 +119,7 @@ pub fn paint(view: &View, point: Vec3, normal: Vec3, light: Colour, bright: f32)
 
 /// Light and dark bands with a touch of the body's shape.
 pub fn bands(view: &View, point: Vec3, normal: Vec3, bright: f32) -> Colour {
-    scaled(mix(palette::DARK, palette::LIGHT, bright), 0.55 + 0.45 * matt(view, point, normal))
+    scaled(mix(palette::DARK, palette::LIGHT, bright), body_light(view, point, normal))
 }
 
 /// A pattern on the light plane as a point sees it.
@@ -212,9 +212,9 @@ pub fn map(quantity: Quantity, value: Option<f64>, limit: f64) -> Colour {
     }
 }
 
-/// A map on a body whose shape can still be seen.
-pub fn on_body(view: &View, point: Vec3, normal: Vec3, colour: Colour) -> Colour {
-    scaled(colour, 0.55 + 0.45 * matt(view, point, normal))
+/// How bright a body is whose shape can still be seen below a map.
+pub fn body_light(view: &View, point: Vec3, normal: Vec3) -> f32 {
+    0.55 + 0.45 * matt(view, point, normal)
 }
 
 /// The edges of a square of parameters on the body: `at` is in the square, from 0 to `size`, and `sides` says which of its

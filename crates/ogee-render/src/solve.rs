@@ -13,44 +13,71 @@ pub(crate) struct Spot {
     pub(crate) at: [f64; 2],
 }
 
-/// Steps for all pixels: what is left is 1e-8 of a pixel nearly everywhere.
-const STEPS: usize = 2;
-
-/// Steps more for pixels that belong to the face beyond a side, and those at outlines.
-const STEPS_MORE: usize = 6;
+/// Steps for pixels that belong to the face beyond a side, and those at outlines.
+const STEPS_MORE: usize = 8;
 
 /// A step longer than this leaves the region in which it can be trusted.
 const LONGEST: f64 = 0.15;
 
-/// Of a pixel: where this is left, a few more steps are worth it.
+/// Of a pixel: where more is left than this, more steps are worth it.
 const DONE: f64 = 1e-3;
 
-/// Moves places to where the middle of their pixel shows the surface.
-pub(crate) fn solve(surface: &dyn Surface, view: &View, spots: &mut [Spot]) {
-    let layout = surface.layout();
+/// Moves places to where the middle of their pixel shows the surface, and gives the surface there.
+///
+/// The mesh is so fine that one step comes close enough nearly everywhere.
+pub(crate) fn solve(surface: &dyn Surface, view: &View, spots: &mut [Spot], what: Derivatives) -> Samples {
     let mut samples = Samples::default();
     let mut at: Vec<Location> = Vec::with_capacity(spots.len());
-    for _ in 0..STEPS {
-        steps(surface, view, spots, &mut at, &mut samples);
+    steps(surface, view, spots, &mut at, &mut samples);
+    evaluate(surface, spots.iter(), what, &mut at, &mut samples);
+    let far: Vec<usize> =
+        (0..spots.len()).filter(|&i| residual(view, &spots[i], &samples, i) > DONE).collect();
+    if far.is_empty() {
+        return samples;
     }
     // Steps that stopped at a side, or that have not come near.
-    evaluate(surface, spots.iter(), &mut at, &mut samples);
-    let mut left: Vec<usize> =
-        (0..spots.len()).filter(|&i| residual(view, &spots[i], &samples, i) > DONE).collect();
+    let mut lost: Vec<Spot> = far.iter().map(|&i| spots[i]).collect();
+    let mut more = Samples::default();
+    let mut left: Vec<usize> = (0..lost.len()).collect();
     for _ in 0..STEPS_MORE {
-        if left.is_empty() {
-            return;
-        }
-        evaluate(surface, left.iter().map(|&i| &spots[i]), &mut at, &mut samples);
+        evaluate(surface, left.iter().map(|&i| &lost[i]), Derivatives::First, &mut at, &mut more);
         let mut next = Vec::new();
         for (k, &i) in left.iter().enumerate() {
-            if residual(view, &spots[i], &samples, k) > DONE {
-                step(layout, view, &mut spots[i], &samples, k);
+            if residual(view, &lost[i], &more, k) > DONE {
+                step(surface.layout(), view, &mut lost[i], &more, k);
                 next.push(i);
             }
         }
         left = next;
+        if left.is_empty() {
+            break;
+        }
     }
+    evaluate(surface, lost.iter(), what, &mut at, &mut more);
+    for (k, &i) in far.iter().enumerate() {
+        spots[i] = lost[k];
+        copy(&more, k, &mut samples, i);
+    }
+    samples
+}
+
+/// One point of many to its place among others.
+fn copy(from: &Samples, k: usize, to: &mut Samples, i: usize) {
+    let vectors = [
+        (&from.position, &mut to.position),
+        (&from.du, &mut to.du),
+        (&from.dv, &mut to.dv),
+        (&from.normal, &mut to.normal),
+        (&from.duu, &mut to.duu),
+        (&from.duv, &mut to.duv),
+        (&from.dvv, &mut to.dvv),
+    ];
+    for (from, to) in vectors {
+        if let (Some(&from), Some(to)) = (from.get(k), to.get_mut(i)) {
+            *to = from;
+        }
+    }
+    to.flags[i] = from.flags[k];
 }
 
 /// One step for all.
@@ -61,7 +88,7 @@ fn steps(
     at: &mut Vec<Location>,
     samples: &mut Samples,
 ) {
-    evaluate(surface, spots.iter(), at, samples);
+    evaluate(surface, spots.iter(), Derivatives::First, at, samples);
     for (i, spot) in spots.iter_mut().enumerate() {
         step(surface.layout(), view, spot, samples, i);
     }
@@ -72,7 +99,7 @@ pub(crate) fn residuals(surface: &dyn Surface, view: &View, spots: &[Spot], coun
     let (mut spots, mut at, mut samples) = (spots.to_vec(), Vec::new(), Samples::default());
     let mut all = Vec::new();
     for _ in 0..=count {
-        evaluate(surface, spots.iter(), &mut at, &mut samples);
+        evaluate(surface, spots.iter(), Derivatives::First, &mut at, &mut samples);
         all.push((0..spots.len()).map(|i| residual(view, &spots[i], &samples, i)).collect());
         for (i, spot) in spots.iter_mut().enumerate() {
             step(surface.layout(), view, spot, &samples, i);
@@ -84,13 +111,14 @@ pub(crate) fn residuals(surface: &dyn Surface, view: &View, spots: &[Spot], coun
 fn evaluate<'a>(
     surface: &dyn Surface,
     spots: impl Iterator<Item = &'a Spot>,
+    what: Derivatives,
     at: &mut Vec<Location>,
     samples: &mut Samples,
 ) {
     let squares = surface.layout().squares();
     at.clear();
     at.extend(spots.map(|spot| squares[spot.square as usize].at(spot.at[0], spot.at[1])));
-    surface.evaluate(at, Derivatives::First, samples);
+    surface.evaluate(at, what, samples);
 }
 
 /// How many pixels away the point is.

@@ -3,9 +3,9 @@
 
 use std::path::Path;
 
-use ogee::quality::LimitView;
+use ogee::quality::{LimitView, bounding_box};
 use ogee::{Level, LimitSurface, PatchTable, Vec3, shapes};
-use ogee_render::{Image, Pattern, Quantity, Sampling, Scene, Style, bounding_box, default_light, render};
+use ogee_render::{Image, Pattern, Quantity, Sampling, Scene, Style, default_light, render};
 
 const SIZE: [u32; 2] = [300, 300];
 
@@ -22,7 +22,7 @@ fn every_display_is_the_picture_that_was_looked_at() {
     let table = PatchTable::new(&level);
     let surface = LimitSurface::new(&table, &mesh.points);
     let view = LimitView::new(&level, &surface);
-    let [lower, upper] = bounding_box(&view);
+    let [lower, upper] = bounding_box(&view).unwrap();
     let light = default_light([lower, upper]);
     let period = upper.distance(lower) / 12.0;
     let lines = Pattern::Lines { period, width: 0.3, phase: 0.0 };

@@ -1,11 +1,11 @@
 //! Lines in a picture are where the surface has them: against known answers, and against meshes of the surface.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use ogee::quality::{LimitView, PlaneLight, Viewer};
+use ogee::quality::{LimitView, PlaneLight, Viewer, bounding_box};
 use ogee::{ControlMesh, Level, LimitSurface, PatchTable, Vec3, shapes};
 use ogee_render::{
-    Camera, Pattern, Picture, Projection, Quantity, RenderError, Sampling, Scene, Style, bounding_box,
-    default_light, displacement, render,
+    Camera, Pattern, Picture, Projection, Quantity, RenderError, Sampling, Scene, Style, default_light,
+    displacement, render,
 };
 
 fn with_view<T>(mesh: &ControlMesh, look: impl FnOnce(&LimitView<'_>) -> T) -> T {
@@ -78,7 +78,7 @@ fn a_flat_mirror_shows_lines_where_its_rays_go() {
 #[test]
 fn lines_of_fragments_are_nearer_than_lines_of_polygons() {
     with_view(&shapes::body(), |view| {
-        let bounds = bounding_box(view);
+        let bounds = bounding_box(view).unwrap();
         let light = default_light(bounds);
         let size = [560, 400];
         let whole = Camera::fit(bounds, size);
@@ -109,7 +109,7 @@ fn lines_of_fragments_are_nearer_than_lines_of_polygons() {
 #[test]
 fn pictures_do_not_depend_on_the_number_of_threads() {
     with_view(&shapes::body(), |view| {
-        let [lower, upper] = bounding_box(view);
+        let [lower, upper] = bounding_box(view).unwrap();
         let period = upper.distance(lower) / 15.0;
         let style = Style::Reflection {
             light: default_light([lower, upper]),
@@ -139,7 +139,7 @@ fn finer_pictures_show_the_same() {
 #[test]
 fn views_of_nothing_are_errors() {
     with_view(&shapes::body(), |view| {
-        let bounds = bounding_box(view);
+        let bounds = bounding_box(view).unwrap();
         let light = default_light(bounds);
         let usual = Scene::of(view, [40, 30]);
         let error = |scene: Scene| render(view, &scene).unwrap_err();

@@ -68,7 +68,7 @@
 //! | `rules` | [`Level`]: a topology with its rules; [`Sector`]; the rule table |
 //! | `refine` | the one-to-four split, [`Step`], [`Refinement`], [`FineMesh`] |
 //! | `patch` | [`PatchTable`]: what each face's surface is made of; [`Location`]; limit masks; pieces of a level, taken out |
-//! | `limit` | [`LimitSurface`]: the surface at any point; [`ClosestPoints`]; [`limit_vertices`] |
+//! | `limit` | [`LimitSurface`]: the surface at any point; [`Pattern`]: at the same places on every face; [`ClosestPoints`]; [`limit_vertices`] |
 //! | [`nurbs`] | knots, curves, surfaces of any degree, shells |
 //! | [`stam`] | the limit surface a second time, by eigenvectors, at smooth interior vertices |
 //! | [`pccm`] | one smooth patch per quad, and packing them into few |
@@ -105,8 +105,8 @@ pub mod stam;
 mod stencil;
 
 pub use limit::{
-    Closest, ClosestPoints, Derivatives, Flags, LimitJet, LimitSurface, LimitVertex, Samples, SurfacePoint,
-    limit_vertices,
+    Closest, ClosestPoints, Derivatives, FacePiece, Flags, LimitJet, LimitSurface, LimitVertex, PatchNet,
+    Pattern, Samples, SurfacePoint, TailPiece, limit_vertices,
 };
 pub use math::{Curvature, Grid, Interpolate, SurfaceJet, Vec3};
 pub use mesh::{
@@ -127,6 +127,9 @@ mod doctests {
 
     #[doc = include_str!("../../../docs/methods/exact_evaluation.md")]
     struct ExactEvaluation;
+
+    #[doc = include_str!("../../../docs/methods/reflection_lines.md")]
+    struct ReflectionLines;
 
     #[doc = include_str!("../../../docs/methods/pccm.md")]
     struct Pccm;

@@ -84,30 +84,20 @@ fn resident_bytes() -> Result<f64> {
 fn by_faces(mesh: &ControlMesh, what: Derivatives, side: u32) -> Result<Value> {
     let level = Level::new(mesh)?;
     let centre = |i: u32| (f64::from(i) + 0.5) / f64::from(side);
-    let size = if threads() == 1 { BLOCK } else { SHARED_BLOCK };
-    let mut block: Vec<Location> = Vec::with_capacity(size);
+    let places: Vec<[f64; 2]> = (0..side * side).map(|k| [centre(k % side), centre(k / side)]).collect();
+    let block = if threads() == 1 { BLOCK } else { SHARED_BLOCK };
+    let faces = (block / places.len()).max(1);
     let mut results = Samples::default();
     let mut pass = |take: &mut dyn FnMut(&Samples)| -> Result<[f64; 2]> {
         let start = Instant::now();
         let table = PatchTable::new(&level);
         let surface = LimitSurface::new(&table, &mesh.points);
+        let pattern = table.pattern(&places, what)?;
         let prepared = start.elapsed();
-        block.clear();
-        for face in (0..mesh.faces.len() as u32).map(FaceId) {
-            let corner = table.locate(face, None, 0.0, 0.0)?;
-            for j in 0..side {
-                for i in 0..side {
-                    block.push(corner.at(centre(i), centre(j))?);
-                    if block.len() == size {
-                        surface.eval_into(&block, what, &mut results);
-                        take(&results);
-                        block.clear();
-                    }
-                }
-            }
+        for first in (0..table.len()).step_by(faces) {
+            surface.eval_pattern(&pattern, first..(first + faces).min(table.len()), &mut results)?;
+            take(&results);
         }
-        surface.eval_into(&block, what, &mut results);
-        take(&results);
         Ok([prepared.as_secs_f64(), start.elapsed().as_secs_f64()])
     };
     let mut checksum = Checksum::default();

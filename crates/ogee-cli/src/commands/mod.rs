@@ -5,6 +5,7 @@ pub(crate) mod completions;
 pub(crate) mod convert;
 pub(crate) mod eval;
 pub(crate) mod info;
+pub(crate) mod inspect;
 pub(crate) mod lines;
 mod man;
 pub(crate) mod refine;
@@ -24,6 +25,7 @@ pub(crate) fn run(command: &Command, console: &Console) -> Result<ExitCode, Fail
         Command::Eval(eval) => eval.run(console),
         Command::Lines(lines) => lines.run(console),
         Command::Convert(convert) => convert.run(console),
+        Command::Inspect(inspect) => inspect.run(console),
         Command::Render(render) => render.run(console),
         Command::Check(check) => check.run(console),
         Command::Completions(completions) => completions.run(console),

@@ -1,5 +1,6 @@
 //! `ogee render`: a picture of the exact surface.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::str::FromStr;
 use std::sync::Arc;
@@ -25,7 +26,7 @@ const EXAMPLES: &str = "\
 Examples:
   ogee render cage.obj --style reflection -o lines.png       mirrored lines, exact at every pixel
   ogee render cage.obj --style mean --size 1200x900 -o h.png mean curvature, with its scale
-  ogee render part.json --style zebra -o zebra.png           the patches of a part
+  ogee render cage.obj --beside part.json --style zebra -o zebra.png  the limit and the patches of a part
   ogee render cage.obj --style error --sampling polygon:2 -o error.png";
 
 /// Draw the surface: shaded, mirrored lines, bands, curvature
@@ -39,6 +40,9 @@ pub(crate) struct Render {
     /// The format of the picture, where its name does not tell
     #[arg(long, value_name = "FORMAT", value_parser = formats::<PictureFormat>())]
     output_format: Option<PictureFormat>,
+    /// A second cage or part, drawn beside the first with the same camera, light and scale of colours
+    #[arg(long, value_name = "CAGE|PART.json")]
+    beside: Option<PathBuf>,
     /// What to show
     #[arg(long, value_name = "STYLE", default_value = "shaded", value_parser = formats::<Look>())]
     style: Look,
@@ -197,11 +201,29 @@ impl Render {
         progress.step("reading");
         let subject = Subject::read(&self.cage)?;
         destination.check()?;
+        let other = match &self.beside {
+            Some(file) => Some(Subject::read(&self.cage.for_file(file))?),
+            None => None,
+        };
         progress.step("drawing");
-        let (scene, picture) = subject.look(|surface| self.draw(&subject, surface, image))?;
+        let scene = subject.look(|surface| self.scene(&subject, surface, image))?;
+        let picture = subject.look(|surface| draw(&subject, surface, &scene))?;
         let mut pixels = picture.reduced(self.samples).image();
         if let Some(limit) = picture.limit {
             pixels.add_legend(&scene.style, limit);
+        }
+        if let Some(other) = &other {
+            // The same colours for the same curvature.
+            let style = match scene.style {
+                Style::Curvature { quantity, .. } => Style::Curvature { quantity, limit: picture.limit },
+                ref style => style.clone(),
+            };
+            let scene = Scene { style, ..scene };
+            let second = other.look(|surface| draw(other, surface, &scene))?;
+            let mut second = second.reduced(self.samples).image();
+            pixels.add_caption(&subject.name);
+            second.add_caption(&other.name);
+            pixels = pixels.beside(&second);
         }
         progress.step("writing");
         let start = Instant::now();
@@ -241,20 +263,16 @@ impl Render {
         Ok(ExitCode::SUCCESS)
     }
 
-    fn draw(
+    fn scene(
         &self,
         subject: &Subject,
         surface: &dyn Surface,
         image: Option<Arc<Light>>,
-    ) -> Result<(Scene, Picture), Failure> {
+    ) -> Result<Scene, Failure> {
         let bounds = subject.bounds(surface)?;
         let camera = self.view.camera(&outline(surface))?;
         let size = self.view.size.map(|side| side * self.samples);
-        let style = self.style(bounds, image);
-        let scene = Scene { camera, size, style, sampling: self.sampling.0 };
-        let picture =
-            render(surface, &scene).map_err(|error| subject.failure(error.code(), error.to_string()))?;
-        Ok((scene, picture))
+        Ok(Scene { camera, size, style: self.style(bounds, image), sampling: self.sampling.0 })
     }
 
     /// The picture on the light plane, if there is one.
@@ -307,6 +325,10 @@ impl Render {
             Look::Combs => Style::Combs { share: 0.04 },
         }
     }
+}
+
+fn draw(subject: &Subject, surface: &dyn Surface, scene: &Scene) -> Result<Picture, Failure> {
+    render(surface, scene).map_err(|error| subject.failure(error.code(), error.to_string()))
 }
 
 fn is_png(path: &std::path::Path) -> bool {

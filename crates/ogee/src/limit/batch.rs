@@ -339,6 +339,26 @@ impl<'a> Worker<'a> {
 }
 
 impl Worker<'_> {
+    /// Some places on a parametric face; results go to their numbers, counted from `first`.
+    pub(super) fn places<'i>(
+        &mut self,
+        root: u32,
+        places: impl IntoIterator<Item = &'i Item>,
+        first: usize,
+        out: &mut Out<'_>,
+    ) {
+        self.items.clear();
+        self.items.extend(places.into_iter().map(|item| Item { index: first as u32 + item.index, ..*item }));
+        self.run(root, out);
+    }
+
+    /// Samples in a leaf of a face that was halved so often.
+    #[inline]
+    pub(super) fn in_leaf(&mut self, net: &[u32; 16], depth: i32, source: impl Source, out: &mut Out<'_>) {
+        self.leaf(net, depth);
+        self.group.evaluate(self.batch.what, source, out);
+    }
+
     /// One sample.
     pub(super) fn lone(&mut self, at: Location, out: &mut Out<'_>) {
         self.items.push(Item { u: at.u, v: at.v, index: 0 });

@@ -1,6 +1,7 @@
 //! Extraordinary vertices themselves.
 
-use super::evaluate::{tangents_at_origin, unit_normal};
+use super::evaluate::tangents_at_origin;
+use super::normals::unit_normal;
 use super::walk::{Walk, last_step};
 use super::{Flags, SurfacePoint};
 use crate::math::Vec3;

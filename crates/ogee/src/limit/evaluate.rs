@@ -1,23 +1,16 @@
 //! Samples of one bicubic patch, four at a time.
 
-use std::marker::PhantomData;
-
 use super::bicubic::{self, Jet, Net};
-use super::out::Out;
+use super::normals::{is_sure, unit_normal};
+use super::out::{LANES, Out, Put};
 use super::walk::narrow;
 use super::{Derivatives, Flags};
 use crate::math::Vec3;
 use crate::math::simd::{self, Four};
 use crate::patch::{Location, Wide};
 
-/// Samples side by side in the inner loop.
-const LANES: usize = 4;
-
-/// Tangents are parallel where the sine of their angle is below this: some dozen roundings.
-const PARALLEL: f64 = 1e-14;
-
 /// A sample in the parameters of its patch, and where its results go.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Item {
     pub(super) u: f64,
     pub(super) v: f64,
@@ -27,13 +20,16 @@ pub(super) struct Item {
 /// Samples of one patch.
 pub(super) trait Source {
     /// True if results go to places one after the other.
-    const STRAIGHT: bool;
+    fn is_straight(&self) -> bool;
     fn len(&self) -> usize;
     fn get(&self, i: usize) -> Item;
 }
 
 impl Source for &[Item] {
-    const STRAIGHT: bool = false;
+    #[inline(always)]
+    fn is_straight(&self) -> bool {
+        false
+    }
 
     #[inline(always)]
     fn len(&self) -> usize {
@@ -54,7 +50,10 @@ pub(super) struct Together<'a> {
 }
 
 impl Source for Together<'_> {
-    const STRAIGHT: bool = true;
+    #[inline(always)]
+    fn is_straight(&self) -> bool {
+        true
+    }
 
     #[inline(always)]
     fn len(&self) -> usize {
@@ -65,6 +64,31 @@ impl Source for Together<'_> {
     fn get(&self, i: usize) -> Item {
         let Location { u, v, .. } = self.at[i];
         Item { u, v, index: (self.first + i) as u32 }
+    }
+}
+
+/// Places of a pattern, whose numbers are counted from `first`.
+pub(super) struct Counted<'a> {
+    pub(super) items: &'a [Item],
+    pub(super) first: usize,
+    pub(super) straight: bool,
+}
+
+impl Source for Counted<'_> {
+    #[inline(always)]
+    fn is_straight(&self) -> bool {
+        self.straight
+    }
+
+    #[inline(always)]
+    fn len(&self) -> usize {
+        self.items.len()
+    }
+
+    #[inline(always)]
+    fn get(&self, i: usize) -> Item {
+        let item = self.items[i];
+        Item { index: self.first as u32 + item.index, ..item }
     }
 }
 
@@ -133,91 +157,24 @@ impl Group {
 
     /// Scales jets, and writes them.
     #[inline(always)]
-    fn write<const PARTS: usize, S: Source, V: Four>(
-        &self,
-        put: &Put<S>,
-        jet: &Jet<[V; 3], PARTS>,
-        out: &mut Out<'_>,
-    ) {
-        // One check of all indices: arrays that are wanted have the same length.
-        let count = out.position.len();
-        assert!(put.indices.iter().all(|&index| index < count), "there is room for every sample");
+    fn write<const PARTS: usize, V: Four>(&self, put: &Put, jet: &Jet<[V; 3], PARTS>, out: &mut Out<'_>) {
         let [position_scale, first_scale, second_scale] = self.scales;
         let [x, y, z] = scaled(&jet[0], position_scale);
         let base = [V::splat(self.base[0]), V::splat(self.base[1]), V::splat(self.base[2])];
         put.vectors(out.position, [base[0].plus(x), base[1].plus(y), base[2].plus(z)]);
-        put.each(&mut out.flags[..count], |_| self.flags);
+        put.flags(out.flags, self.flags);
         if PARTS == 1 {
             return;
         }
-        put.vectors(&mut out.du[..count], scaled(&jet[1], first_scale));
-        put.vectors(&mut out.dv[..count], scaled(&jet[2], first_scale));
-        let normals = normals(&jet[1], &jet[2]);
-        put.vectors(&mut out.normal[..count], normals.vectors);
-        if normals.sure != [true; LANES] {
-            self.doubtful(put, normals.sure, [stored(&jet[1]), stored(&jet[2])], out);
-        }
+        put.vectors(out.du, scaled(&jet[1], first_scale));
+        put.vectors(out.dv, scaled(&jet[2], first_scale));
+        put.normals(&jet[1], &jet[2], self.flags, out);
         if PARTS == 3 {
             return;
         }
-        put.vectors(&mut out.duu[..count], scaled(&jet[3], second_scale));
-        put.vectors(&mut out.duv[..count], scaled(&jet[4], second_scale));
-        put.vectors(&mut out.dvv[..count], scaled(&jet[5], second_scale));
-    }
-
-    /// Normals whose squares are too large or small for numbers, or that do not exist.
-    #[cold]
-    #[inline(never)]
-    fn doubtful<S: Source>(
-        &self,
-        put: &Put<S>,
-        sure: [bool; LANES],
-        tangents: [[Wide; 3]; 2],
-        out: &mut Out<'_>,
-    ) {
-        for l in (0..put.count).filter(|&l| !sure[l]) {
-            let index = put.indices[l];
-            let [du, dv] = tangents.map(|[x, y, z]| Vec3::new(x[l], y[l], z[l]));
-            let normal = unit_normal(du, dv);
-            out.normal[index] = normal.unwrap_or(Vec3::ZERO);
-            if normal.is_none() {
-                out.flags[index] = self.flags.with(Flags::NORMAL_UNDEFINED);
-            }
-        }
-    }
-}
-
-/// Places of results of up to four samples.
-struct Put<S> {
-    indices: [usize; LANES],
-    count: usize,
-    source: PhantomData<S>,
-}
-
-impl<S: Source> Put<S> {
-    #[inline(always)]
-    fn vectors<V: Four>(&self, out: &mut [Vec3], [x, y, z]: [V; 3]) {
-        let (x, y, z) = (x.store(), y.store(), z.store());
-        self.each(out, |l| Vec3::new(x[l], y[l], z[l]));
-    }
-
-    #[inline(always)]
-    fn each<T>(&self, out: &mut [T], value: impl Fn(usize) -> T) {
-        if S::STRAIGHT && self.count == LANES {
-            let start = self.indices[0];
-            let out = &mut out[start..start + LANES];
-            for l in 0..LANES {
-                out[l] = value(l);
-            }
-        } else if self.count == LANES {
-            for l in 0..LANES {
-                out[self.indices[l]] = value(l);
-            }
-        } else {
-            for l in 0..self.count {
-                out[self.indices[l]] = value(l);
-            }
-        }
+        put.vectors(out.duu, scaled(&jet[3], second_scale));
+        put.vectors(out.duv, scaled(&jet[4], second_scale));
+        put.vectors(out.dvv, scaled(&jet[5], second_scale));
     }
 }
 
@@ -262,8 +219,8 @@ impl<const PARTS: usize, S: Source> simd::Kernel for Run<'_, '_, PARTS, S> {
             let [a, b, c, d] = [item(0), item(1), item(2), item(3)];
             let (u, v) = (V::load(&[a.u, b.u, c.u, d.u]), V::load(&[a.v, b.v, c.v, d.v]));
             let indices = [a.index as usize, b.index as usize, c.index as usize, d.index as usize];
-            let put = Put { indices, count, source: PhantomData::<S> };
-            group.write::<PARTS, S, V>(&put, &bicubic::four::<PARTS, V>(&group.net, u, v), out);
+            let put = Put { indices, count, straight: source.is_straight() && count == LANES };
+            group.write::<PARTS, V>(&put, &bicubic::four::<PARTS, V>(&group.net, u, v), out);
         }
     }
 }
@@ -272,57 +229,6 @@ impl<const PARTS: usize, S: Source> simd::Kernel for Run<'_, '_, PARTS, S> {
 fn scaled<V: Four>(part: &[V; 3], scale: f64) -> [V; 3] {
     let scale = V::splat(scale);
     [part[0].times(scale), part[1].times(scale), part[2].times(scale)]
-}
-
-#[inline(always)]
-fn square<V: Four>(v: &[V; 3]) -> V {
-    v[0].times(v[0]).plus(v[1].times(v[1])).plus(v[2].times(v[2]))
-}
-
-#[inline(always)]
-fn stored<V: Four>(part: &[V; 3]) -> [Wide; 3] {
-    [part[0].store(), part[1].store(), part[2].store()]
-}
-
-/// Unit normals in lanes, and for each whether its arithmetic is beyond doubt.
-struct Normals<V> {
-    vectors: [V; 3],
-    sure: [bool; LANES],
-}
-
-#[inline(always)]
-fn normals<V: Four>(a: &[V; 3], b: &[V; 3]) -> Normals<V> {
-    let cross = [
-        a[1].times(b[2]).minus(a[2].times(b[1])),
-        a[2].times(b[0]).minus(a[0].times(b[2])),
-        a[0].times(b[1]).minus(a[1].times(b[0])),
-    ];
-    let length = square(&cross);
-    let scale = V::splat(1.0).over(length.root());
-    let vectors = [cross[0].times(scale), cross[1].times(scale), cross[2].times(scale)];
-    let (first, second, length) = (square(a).store(), square(b).store(), length.store());
-    let mut sure = [true; LANES];
-    for l in 0..LANES {
-        sure[l] = is_sure(length[l], first[l], second[l]);
-    }
-    Normals { vectors, sure }
-}
-
-/// True if a normal is beyond doubt; `length` is the square of the cross product of two tangents, `first` and `second`
-/// are those of the tangents.
-#[inline(always)]
-fn is_sure(length: f64, first: f64, second: f64) -> bool {
-    // Squares of products of derivatives: within these no step has over- or underflown.
-    const LEAST: f64 = 1e-200;
-    const GREATEST: f64 = 1e200;
-    (length > PARALLEL * PARALLEL * first * second) & (length > LEAST) & (length < GREATEST)
-}
-
-/// The unit normal of two tangents of any size; nothing where they are parallel or vanish.
-pub(super) fn unit_normal(a: Vec3, b: Vec3) -> Option<Vec3> {
-    let (a, b) = (a.normalized()?, b.normalized()?);
-    let cross = a.cross(b);
-    if cross.length() > PARALLEL { cross.normalized() } else { None }
 }
 
 /// Tangents of a patch at its own origin.
@@ -361,7 +267,15 @@ mod tests {
                 PLAIN.set(false);
                 samples
             };
-            let (plain, wide) = (results(true), results(false));
+            let places: Vec<[f64; 2]> = at[..13].iter().map(|place| place.parameters()).collect();
+            let pattern = |plain: bool| -> Samples {
+                let mut samples = Samples::default();
+                PLAIN.set(plain);
+                let pattern = table.pattern(&places, Derivatives::Second).unwrap();
+                surface.eval_pattern(&pattern, 0..table.len().min(300), &mut samples).unwrap();
+                PLAIN.set(false);
+                samples
+            };
             let bits = |samples: &Samples| -> Vec<u64> {
                 let arrays = [
                     &samples.position,
@@ -375,8 +289,10 @@ mod tests {
                 let vectors = arrays.into_iter().flatten();
                 vectors.flat_map(|&v| <[f64; 3]>::from(v)).map(f64::to_bits).collect()
             };
-            assert_eq!(bits(&plain), bits(&wide));
-            assert_eq!(plain.flags, wide.flags);
+            for (plain, wide) in [(results(true), results(false)), (pattern(true), pattern(false))] {
+                assert_eq!(bits(&plain), bits(&wide));
+                assert_eq!(plain.flags, wide.flags);
+            }
         }
     }
 }

@@ -1,13 +1,14 @@
 //! `LimitSurface`: the limit surface of a cage at any point.
 
 use std::borrow::Cow;
+use std::ops::Range;
 
 use super::batch::{Batch, Worker};
 use super::out::Out;
-use super::{Derivatives, Flags, LimitJet, Samples, SurfacePoint};
+use super::{Derivatives, Flags, LimitJet, Pattern, Samples, SurfacePoint, faces};
 use crate::math::{Interpolate, SurfaceJet, Vec3};
 use crate::mesh::VertexId;
-use crate::patch::{Location, PatchTable};
+use crate::patch::{Location, LocationError, PatchTable};
 
 /// The limit surface of a cage: position, derivatives and normal at any point, exact everywhere.
 ///
@@ -120,5 +121,35 @@ impl<'a> LimitSurface<'a> {
     pub fn eval_into(&self, at: &[Location], what: Derivatives, out: &mut Samples) {
         out.resize(at.len(), what);
         self.batch(what).run(at, out.slices());
+    }
+
+    /// The places of a pattern on the parametric faces of a range of numbers: face by face, on each in the order of the
+    /// pattern, into memory that may be there already. On all cores; what a face gives depends on no other.
+    ///
+    /// As exact as [`LimitSurface::eval_batch`], and with the same flags, but sums near extraordinary vertices are taken in
+    /// another order, so last bits may differ. Costs a half to a third of it where places are few. Quickest in blocks of some
+    /// thousand samples a core, which stay in the cache until they are used.
+    ///
+    /// # Errors
+    /// [`LocationError::HiddenFace`] if one of the faces is no part of the surface ([`PatchTable::is_visible`]); `out` is
+    /// then as it was.
+    ///
+    /// # Panics
+    /// If there are no such faces, or the pattern is of another table.
+    pub fn eval_pattern(
+        &self,
+        pattern: &Pattern<'_>,
+        faces: Range<usize>,
+        out: &mut Samples,
+    ) -> Result<(), LocationError> {
+        assert!(std::ptr::eq(self.table, pattern.table()), "the pattern is of another table");
+        let count = self.table.len();
+        assert!(faces.start <= faces.end && faces.end <= count, "there are {count} parametric faces");
+        if let Some(hidden) = self.table.first_hidden(faces.clone()) {
+            return Err(LocationError::HiddenFace { face: self.table.parametric_face(hidden).face });
+        }
+        out.resize(faces.len() * pattern.len(), pattern.derivatives());
+        faces::run(self.batch(pattern.derivatives()), pattern, faces, out.slices());
+        Ok(())
     }
 }

@@ -40,6 +40,17 @@ pub(crate) fn map<T: Send>(count: usize, f: impl Fn(usize) -> T + Sync + Send) -
     }
 }
 
+/// `f` of each of a few large tasks, on all cores; a task brings what it writes to.
+pub(crate) fn each<T: Send>(tasks: Vec<T>, f: impl Fn(T) + Sync + Send) {
+    #[cfg(feature = "rayon")]
+    {
+        use rayon::prelude::*;
+        tasks.into_par_iter().for_each(f);
+    }
+    #[cfg(not(feature = "rayon"))]
+    tasks.into_iter().for_each(f);
+}
+
 /// Both, at the same time if there is a thread to spare.
 pub(crate) fn join(a: impl FnOnce() + Send, b: impl FnOnce() + Send) {
     #[cfg(feature = "rayon")]

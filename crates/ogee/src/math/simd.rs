@@ -6,6 +6,8 @@
 //!
 //! All `unsafe` code of the crate is here.
 
+use super::Vec3;
+
 /// Four numbers side by side.
 pub(crate) trait Four: Copy {
     /// The same number four times.
@@ -14,6 +16,8 @@ pub(crate) trait Four: Copy {
     fn load(from: &[f64; 4]) -> Self;
     /// To memory.
     fn store(self) -> [f64; 4];
+    /// Four vectors to memory, from their first, second and third coordinates.
+    fn store_vectors(coordinates: [Self; 3], out: &mut [Vec3; 4]);
     /// Sums.
     fn plus(self, other: Self) -> Self;
     /// Differences.
@@ -24,6 +28,8 @@ pub(crate) trait Four: Copy {
     fn over(self, other: Self) -> Self;
     /// Square roots.
     fn root(self) -> Self;
+    /// Where it is greater: the lowest bit is the first lane's.
+    fn above(self, other: Self) -> u32;
 }
 
 /// An inner loop. `run` and all that it calls are to be `#[inline(always)]`, or they are compiled for the oldest
@@ -83,6 +89,12 @@ impl Four for Plain {
         self.0
     }
     #[inline(always)]
+    fn store_vectors([x, y, z]: [Plain; 3], out: &mut [Vec3; 4]) {
+        for l in 0..4 {
+            out[l] = Vec3::new(x.0[l], y.0[l], z.0[l]);
+        }
+    }
+    #[inline(always)]
     fn plus(self, other: Plain) -> Plain {
         self.with(other, |a, b| a + b)
     }
@@ -102,15 +114,20 @@ impl Four for Plain {
     fn root(self) -> Plain {
         self.with(self, |a, _| a.sqrt())
     }
+    #[inline(always)]
+    fn above(self, other: Plain) -> u32 {
+        (0..4).fold(0, |bits, l| bits | u32::from(self.0[l] > other.0[l]) << l)
+    }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[expect(unsafe_code, reason = "wide registers")]
 mod wide {
-    use super::{Four, Kernel};
+    use super::{Four, Kernel, Vec3};
     use std::arch::x86_64::{
-        __m256d, _mm256_add_pd, _mm256_div_pd, _mm256_loadu_pd, _mm256_mul_pd, _mm256_set1_pd,
-        _mm256_sqrt_pd, _mm256_storeu_pd, _mm256_sub_pd,
+        __m256d, _CMP_GT_OQ, _mm256_add_pd, _mm256_blend_pd, _mm256_cmp_pd, _mm256_div_pd, _mm256_loadu_pd,
+        _mm256_movemask_pd, _mm256_mul_pd, _mm256_permute2f128_pd, _mm256_set1_pd, _mm256_shuffle_pd,
+        _mm256_sqrt_pd, _mm256_storeu_pd, _mm256_sub_pd, _mm256_unpackhi_pd, _mm256_unpacklo_pd,
     };
 
     /// A kernel compiled for wide registers.
@@ -140,6 +157,20 @@ mod wide {
             out
         }
         #[inline(always)]
+        fn store_vectors([x, y, z]: [Register; 3], out: &mut [Vec3; 4]) {
+            // A vector is three numbers in a row, so four of them are twelve.
+            let out = out.as_mut_ptr().cast::<f64>();
+            unsafe {
+                // x0 y0 x2 y2, y1 z1 y3 z3, z0 x1 z2 x3.
+                let xy = _mm256_unpacklo_pd(x.0, y.0);
+                let yz = _mm256_unpackhi_pd(y.0, z.0);
+                let zx = _mm256_shuffle_pd::<0b1010>(z.0, x.0);
+                _mm256_storeu_pd(out, _mm256_permute2f128_pd::<0x20>(xy, zx));
+                _mm256_storeu_pd(out.add(4), _mm256_blend_pd::<0b1100>(yz, xy));
+                _mm256_storeu_pd(out.add(8), _mm256_permute2f128_pd::<0x31>(zx, yz));
+            }
+        }
+        #[inline(always)]
         fn plus(self, other: Register) -> Register {
             Register(unsafe { _mm256_add_pd(self.0, other.0) })
         }
@@ -158,6 +189,10 @@ mod wide {
         #[inline(always)]
         fn root(self) -> Register {
             Register(unsafe { _mm256_sqrt_pd(self.0) })
+        }
+        #[inline(always)]
+        fn above(self, other: Register) -> u32 {
+            unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_GT_OQ>(self.0, other.0)) as u32 }
         }
     }
 }
@@ -191,7 +226,11 @@ mod tests {
         fn run<V: Four>(self) -> Vec<[u64; 4]> {
             let (a, b) = (V::load(&self.0), V::load(&self.1));
             let results = [a.plus(b), a.minus(b), a.times(b), a.over(b), a.root(), V::splat(self.1[2])];
-            results.iter().map(|value| value.store().map(f64::to_bits)).collect()
+            let mut vectors = [Vec3::ZERO; 4];
+            V::store_vectors([a, b, a.plus(b)], &mut vectors);
+            let vectors = vectors.map(|v| [v.x, v.y, v.z, f64::from(a.above(b))]);
+            let numbers = results.into_iter().map(V::store).chain(vectors);
+            numbers.map(|value| value.map(f64::to_bits)).collect()
         }
     }
 

@@ -25,6 +25,13 @@ pub(crate) trait Connectivity: Sync {
     fn target(&self, h: HalfedgeId) -> VertexId {
         self.origin(self.next(h))
     }
+
+    /// The halfedges that leave a vertex, counter-clockwise, one per face, as [`Topology::ring`] has them.
+    #[inline]
+    fn ring(&self, v: VertexId) -> impl Iterator<Item = HalfedgeId> {
+        let first = self.outgoing(v);
+        std::iter::successors(first, move |&h| self.twin(self.prev(h)).filter(|&next| Some(next) != first))
+    }
 }
 
 impl Connectivity for Topology {

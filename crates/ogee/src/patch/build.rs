@@ -2,25 +2,32 @@
 //!
 //! Faces are looked at level by level, not one by one: what has to be split at a level is taken out with what touches
 //! it and refined as one small level, whose quads are looked at next. Points of deeper levels are kept as weights on the
-//! cage.
+//! cage. Most faces never come here: where no tag and no boundary is near, [`super::roots`] is quicker; the test
+//! `the_quick_way_makes_the_same_table` holds the two together.
 
 use std::collections::HashMap;
 use std::sync::OnceLock;
 
 use super::chain::{ChainBasis, Kind};
 use super::points::{Below, Points};
-use super::surroundings::{CornerKind, Mirrored, Plain, Surroundings, plain_corners, plain_ring};
-use super::table::{NO_LEAF, PatchTable, Sources};
+use super::surroundings::{CornerKind, Mirrored, Surroundings};
+use super::table::{PatchTable, Sources};
 use super::tree::{Node, Piece, Tail};
 use super::{Neighbourhood, with_ring};
 use crate::math::par;
 use crate::mesh::connectivity::Connectivity;
-use crate::mesh::{FaceId, HalfedgeId};
+use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::rules::Level;
 use crate::stencil::StencilTable;
 
 /// The table of a level.
 pub(super) fn table(level: &Level) -> PatchTable {
+    // Two steps ahead there are sixteen times as many halfedges, which have to have numbers.
+    grow(level, u32::MAX as usize / 16)
+}
+
+/// With fewer halfedges than `ahead_limit` some of what has to be split goes the quick way.
+fn grow(level: &Level, ahead_limit: usize) -> PatchTable {
     let starts = starts(level);
     let faces = level.topology().face_count();
     let roots = if starts.is_empty() { 0..faces as u32 } else { 0..starts[faces] };
@@ -42,10 +49,10 @@ pub(super) fn table(level: &Level) -> PatchTable {
         local: StencilTable::empty(),
         users: OnceLock::new(),
     };
-    let mut builder = Builder { table, kinds: HashMap::new() };
+    let mut builder = Builder { table, kinds: HashMap::new(), smooth: Vec::new() };
     let mut targets = match level.topology().as_quads() {
-        Some(quads) => builder.plain_roots(level, &quads, roots.len()),
-        None => builder.plain_roots(level, level.topology(), roots.len()),
+        Some(quads) => builder.plain_roots(level, &quads, ahead_limit),
+        None => builder.plain_roots(level, level.topology(), ahead_limit),
     };
     let mut below: Option<Below> = None;
     while !targets.is_empty() {
@@ -78,7 +85,7 @@ fn starts(level: &Level) -> Vec<u32> {
     starts
 }
 
-fn face_of(starts: &[u32], root: u32) -> FaceId {
+pub(super) fn face_of(starts: &[u32], root: u32) -> FaceId {
     if starts.is_empty() {
         return FaceId(root);
     }
@@ -87,16 +94,16 @@ fn face_of(starts: &[u32], root: u32) -> FaceId {
 
 /// A face that is not settled yet.
 #[derive(Clone, Copy, Debug)]
-struct Target {
-    face: FaceId,
+pub(super) struct Target {
+    pub(super) face: FaceId,
     /// Which of its own corners is at `(0, 0)`.
-    corner: u32,
-    slot: Slot,
+    pub(super) corner: u32,
+    pub(super) slot: Slot,
 }
 
 /// Where its node goes.
 #[derive(Clone, Copy, Debug)]
-enum Slot {
+pub(super) enum Slot {
     Root(u32),
     Child {
         split: u32,
@@ -110,140 +117,56 @@ enum Slot {
 
 /// What is found out about a quad without writing anything.
 enum Found {
-    PlainLeaf([u32; 16]),
-    PlainTail { corner: u32, valence: u32, ring: Vec<u32> },
     Leaf(Box<[Mirrored; 16]>),
     Tail { corner: u32, kind: Kind, ring: Vec<Mirrored> },
     Split,
 }
 
-struct Builder {
-    table: PatchTable,
+pub(super) struct Builder {
+    pub(super) table: PatchTable,
+    /// Numbers of kinds; smooth ones, which nearly all are, by valence.
     kinds: HashMap<Kind, u32>,
+    pub(super) smooth: Vec<u32>,
 }
 
-/// Marks a root whose chain is still to be written: its corner and its outer points follow.
-const PENDING: u32 = u32::MAX - 1;
+/// A kind without number.
+const UNKNOWN: u32 = u32::MAX;
 
 impl Builder {
-    /// Fills the roots that the quick way can, and gives the rest.
-    fn plain_roots(&mut self, level: &Level, mesh: &impl Connectivity, count: usize) -> Vec<Target> {
-        let tagged = tagged_vertices(level);
-        let starts = std::mem::take(&mut self.table.starts);
-        self.table.roots = par::collect(count, |root| {
-            let mut slot = [0; 16];
-            slot[..2].copy_from_slice(&[NO_LEAF, Node::NONE.bits()]);
-            let face = face_of(&starts, root as u32);
-            let h = mesh.first(face);
-            if mesh.face_size(face) != 4 || touches(mesh, h, &tagged) {
-                return Sources(slot);
-            }
-            match plain_corners(mesh, h) {
-                Plain::Regular(net) => return Sources(net),
-                Plain::OneIrregular { corner, outer } => {
-                    slot[1..3].copy_from_slice(&[PENDING, corner]);
-                    slot[3..10].copy_from_slice(&outer);
-                }
-                Plain::Other => {}
-            }
-            Sources(slot)
-        });
-        let unsettled = (0..count as u32).filter(|&root| self.table.roots[root as usize].0[0] == NO_LEAF);
-        let (pending, other): (Vec<u32>, Vec<u32>) =
-            unsettled.partition(|&root| self.table.roots[root as usize].0[1] == PENDING);
-        let mut rest = self.plain_tails(mesh, &starts, &pending);
-        let hidden = &self.table.hidden;
-        let visible = |root: &u32| hidden.binary_search(root).is_err();
-        for root in other.into_iter().filter(visible) {
-            let face = face_of(&starts, root);
-            let slot = match starts.get(face.index()) {
-                Some(&first) if mesh.face_size(face) != 4 && first == root => Slot::Corners { first },
-                Some(_) if mesh.face_size(face) != 4 => continue,
-                _ => Slot::Root(root),
-            };
-            rest.push(Target { face, corner: 0, slot });
-        }
-        self.table.starts = starts;
-        rest
-    }
-
-    /// Writes the chains of quads with one irregular corner, as far as the quick way can.
-    fn plain_tails(&mut self, mesh: &impl Connectivity, starts: &[u32], pending: &[u32]) -> Vec<Target> {
-        const CHUNK: usize = 512;
-        const WAVE: usize = 32;
-        let mut rest = Vec::new();
-        self.table.tails.reserve_exact(pending.len());
-        // In waves, so that what chunks hold before it is joined is little, and the same memory again.
-        for wave in pending.chunks(CHUNK * WAVE) {
-            self.plain_wave(mesh, starts, wave, CHUNK, &mut rest);
-        }
-        rest
-    }
-
-    fn plain_wave(
-        &mut self,
-        mesh: &impl Connectivity,
-        starts: &[u32],
-        pending: &[u32],
-        chunk_size: usize,
-        rest: &mut Vec<Target>,
-    ) {
-        let roots = &self.table.roots;
-        let chunks = par::map(pending.len().div_ceil(chunk_size), |chunk| {
-            let mut rings: Vec<u32> = Vec::new();
-            let mut valences = Vec::new();
-            for &root in &pending[chunk * chunk_size..((chunk + 1) * chunk_size).min(pending.len())] {
-                let slot = &roots[root as usize].0;
-                let h = HalfedgeId(mesh.first(face_of(starts, root)).0 + slot[2]);
-                let valence = plain_ring(mesh, h, &mut rings);
-                if valence.is_some() {
-                    rings.extend_from_slice(&slot[3..10]);
-                }
-                valences.push(valence);
-            }
-            (rings, valences)
-        });
-        let mut pending = pending.iter();
-        for (rings, valences) in chunks {
-            let mut first = self.ring_start();
-            self.table.rings.extend(rings);
-            for (valence, &root) in valences.into_iter().zip(&mut pending) {
-                let Some(valence) = valence else {
-                    self.table.roots[root as usize].0[1] = Node::NONE.bits();
-                    let face = face_of(starts, root);
-                    rest.push(Target { face, corner: 0, slot: Slot::Root(root) });
-                    continue;
-                };
-                let kind = Kind::Smooth { valence };
-                let tail =
-                    Tail { first, kind: self.kind(kind), corner: self.table.roots[root as usize].0[2] };
-                first += kind.ring_count() as u32;
-                let node = self.tail(tail);
-                self.place(Slot::Root(root), node);
-            }
-        }
-    }
-
     /// The number of a kind of chain.
-    fn kind(&mut self, kind: Kind) -> u32 {
+    pub(super) fn kind(&mut self, kind: Kind) -> u32 {
         let kinds = &mut self.table.kinds;
-        *self.kinds.entry(kind).or_insert_with(|| {
+        let mut new = || {
             kinds.push(ChainBasis::new(kind));
             kinds.len() as u32 - 1
-        })
+        };
+        let Kind::Smooth { valence } = kind else { return *self.kinds.entry(kind).or_insert_with(new) };
+        let valence = valence as usize;
+        if self.smooth.len() <= valence {
+            self.smooth.resize(valence + 1, UNKNOWN);
+        }
+        if self.smooth[valence] == UNKNOWN {
+            self.smooth[valence] = new();
+        }
+        self.smooth[valence]
+    }
+
+    /// The number of the next local point.
+    pub(super) fn next_point(&self) -> u32 {
+        (self.table.cage_count + self.table.local.len()) as u32
     }
 
     /// Where the next ring begins.
-    fn ring_start(&self) -> u32 {
+    pub(super) fn ring_start(&self) -> u32 {
         u32::try_from(self.table.rings.len()).expect("fewer than 2^32 numbers in the rings of a table")
     }
 
-    fn tail(&mut self, tail: Tail) -> Node {
+    pub(super) fn tail(&mut self, tail: Tail) -> Node {
         self.table.tails.push(tail);
         Node::new(Piece::Tail(self.table.tails.len() as u32 - 1))
     }
 
-    fn leaf(&mut self, slot: Slot, net: [u32; 16]) {
+    pub(super) fn leaf(&mut self, slot: Slot, net: [u32; 16]) {
         if let Slot::Root(root) = slot {
             self.table.roots[root as usize] = Sources(net);
             return;
@@ -253,43 +176,30 @@ impl Builder {
         self.place(slot, Node::new(Piece::Leaf(index)));
     }
 
-    fn place(&mut self, slot: Slot, node: Node) {
+    pub(super) fn place(&mut self, slot: Slot, node: Node) {
         match slot {
             Slot::Root(root) | Slot::Corners { first: root } => {
-                let slot = &mut self.table.roots[root as usize].0;
-                slot[..2].copy_from_slice(&[NO_LEAF, node.bits()]);
-                if let Piece::Tail(tail) = node.piece() {
-                    let Tail { first, kind, corner } = self.table.tails[tail as usize];
-                    slot[2..5].copy_from_slice(&[first, kind, corner]);
-                }
+                self.table.roots[root as usize] = match node.piece() {
+                    Piece::Tail(tail) => Sources::tail(node, self.table.tails[tail as usize]),
+                    _ => Sources::node(node),
+                };
             }
             Slot::Child { split, corner } => self.table.splits[split as usize][corner as usize] = node,
         }
     }
 
     /// Writes leaves and tails; gives what has to be split. `below` is `None` for the cage itself.
-    fn settle(&mut self, level: &Level, below: Option<&Below>, targets: Vec<Target>) -> Vec<Target> {
-        let tagged = tagged_vertices(level);
-        let found = par::collect(targets.len(), |i| find(level, &tagged, targets[i]));
-        let next = (self.table.cage_count + self.table.local.len()) as u32;
-        let mut points = Points::new(below, next);
+    fn settle(&mut self, level: &Level, below: Option<&Below>, mut targets: Vec<Target>) -> Vec<Target> {
+        let named = below.map_or(0, |below| below.level.topology().vertex_count());
+        let mut points = Points::new(named, self.next_point());
+        // What is plain on the cage is settled.
+        if let (Some(_), Some(quads)) = (below, level.topology().as_quads()) {
+            targets = self.settle_plain(&quads, &tagged_vertices(level), targets, &mut points);
+        }
+        let found = par::collect(targets.len(), |i| find(level, targets[i]));
         let mut split = Vec::new();
         for (target, found) in targets.into_iter().zip(found) {
             match found {
-                Found::PlainLeaf(net) => {
-                    let net = net.map(|vertex| points.vertex(vertex));
-                    self.leaf(target.slot, net);
-                }
-                Found::PlainTail { corner, valence, ring } => {
-                    let first = self.ring_start();
-                    for vertex in ring {
-                        let number = points.vertex(vertex);
-                        self.table.rings.push(number);
-                    }
-                    let kind = self.kind(Kind::Smooth { valence });
-                    let node = self.tail(Tail { first, kind, corner });
-                    self.place(target.slot, node);
-                }
                 Found::Leaf(net) => {
                     let net = net.map(|point| points.number(point));
                     self.leaf(target.slot, net);
@@ -307,27 +217,20 @@ impl Builder {
                 Found::Split => split.push(target),
             }
         }
-        self.table.local.extend(&points.rows());
+        self.table.local.extend(&points.rows(|vertex, share, row| match below {
+            None => row.add(VertexId(vertex), share),
+            Some(below) => below.write(vertex, share, row),
+        }));
         split
     }
 
-    /// Refines what has to be split, and all that touches it, once.
-    fn refine(&mut self, level: &Level, below: Option<&Below>, split: Vec<Target>) -> (Below, Vec<Target>) {
-        let faces: Vec<FaceId> = split.iter().map(|target| target.face).collect();
-        let mut part_faces = with_ring(level, &faces);
-        if level.is_chaikin() {
-            // How a crease fades is decided by all edges at its far end as well, and hidden faces bring no ring of
-            // their own.
-            part_faces = with_ring(level, &part_faces);
-        }
-        let part = Neighbourhood::new(level, &part_faces);
-        let mut targets = Vec::new();
+    /// What targets on a level are cut into, as targets on the next.
+    pub(super) fn cut(&mut self, mesh: &impl Connectivity, split: Vec<Target>) -> Vec<Target> {
+        let mut targets = Vec::with_capacity(4 * split.len());
         for target in split {
-            let own = part_faces.partition_point(|&face| face < target.face) as u32;
-            let first = part.level.topology().first(FaceId(own)).0;
-            let corners = part.level.topology().face_size(FaceId(own));
+            let first = mesh.first(target.face).0;
             if let Slot::Corners { first: root } = target.slot {
-                targets.extend((0..corners).map(|corner| Target {
+                targets.extend((0..mesh.face_size(target.face)).map(|corner| Target {
                     face: FaceId(first + corner),
                     corner: 0,
                     slot: Slot::Root(root + corner),
@@ -344,12 +247,34 @@ impl Builder {
                 slot: Slot::Child { split: number, corner },
             }));
         }
+        targets
+    }
+
+    /// Refines what has to be split, and all that touches it, once.
+    fn refine(
+        &mut self,
+        level: &Level,
+        below: Option<&Below>,
+        mut split: Vec<Target>,
+    ) -> (Below, Vec<Target>) {
+        let faces: Vec<FaceId> = split.iter().map(|target| target.face).collect();
+        let mut part_faces = with_ring(level, &faces);
+        if level.is_chaikin() {
+            // How a crease fades is decided by all edges at its far end as well, and hidden faces bring no ring of
+            // their own.
+            part_faces = with_ring(level, &part_faces);
+        }
+        let part = Neighbourhood::new(level, &part_faces);
+        for target in &mut split {
+            target.face = FaceId(part_faces.partition_point(|&face| face < target.face) as u32);
+        }
+        let targets = self.cut(part.level.topology(), split);
         (Below::new(part, below), targets)
     }
 }
 
 /// For each vertex whether a tag touches it; empty if there are no tags.
-fn tagged_vertices(level: &Level) -> Vec<bool> {
+pub(super) fn tagged_vertices(level: &Level) -> Vec<bool> {
     if !level.has_tags() {
         return Vec::new();
     }
@@ -362,31 +287,18 @@ fn tagged_vertices(level: &Level) -> Vec<bool> {
 
 /// True if a tag touches a corner of the quad that `h` belongs to.
 #[inline]
-fn touches(mesh: &impl Connectivity, h: HalfedgeId, tagged: &[bool]) -> bool {
+pub(super) fn touches(mesh: &impl Connectivity, h: HalfedgeId, tagged: &[bool]) -> bool {
     !tagged.is_empty() && (0..4).any(|k| tagged[mesh.origin(HalfedgeId(h.0 + k)).index()])
 }
 
 /// What a target is.
-fn find(level: &Level, tagged: &[bool], target: Target) -> Found {
+fn find(level: &Level, target: Target) -> Found {
     let topology = level.topology();
     if matches!(target.slot, Slot::Corners { .. }) {
         return Found::Split;
     }
     let first = topology.first(target.face).0;
     let corners = [0, 1, 2, 3].map(|corner| HalfedgeId(first + (target.corner + corner) % 4));
-    if let Some(quads) = topology.as_quads().filter(|quads| !touches(quads, HalfedgeId(first), tagged)) {
-        match plain_corners(&quads, corners[0]) {
-            Plain::Regular(net) => return Found::PlainLeaf(net),
-            Plain::OneIrregular { corner, outer } => {
-                let mut ring = Vec::with_capacity(24);
-                if let Some(valence) = plain_ring(&quads, corners[corner as usize], &mut ring) {
-                    ring.extend(outer);
-                    return Found::PlainTail { corner, valence, ring };
-                }
-            }
-            Plain::Other => {}
-        }
-    }
     let surroundings = Surroundings::new(level);
     let mut irregular = None;
     for (corner, &h) in (0..).zip(&corners) {
@@ -401,6 +313,109 @@ fn find(level: &Level, tagged: &[bool], target: Target) -> Found {
         Some((corner, kind)) => {
             let ring = surroundings.ring(corners[corner as usize], kind);
             Found::Tail { corner, kind, ring }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{ControlMesh, Corner, Crease, FaceList, Sharpness, shapes};
+
+    /// Some faces of a cage cut into triangles, some joined to hexagons.
+    fn with_polygons(mesh: ControlMesh) -> ControlMesh {
+        let quads: Vec<Vec<u32>> = mesh.faces.iter().map(<[u32]>::to_vec).collect();
+        let mut faces = FaceList::new();
+        for (f, quad) in quads.iter().enumerate() {
+            match f % 5 {
+                0 => {
+                    faces.push(&[quad[0], quad[1], quad[2]]);
+                    faces.push(&[quad[0], quad[2], quad[3]]);
+                }
+                _ => faces.push(quad),
+            }
+        }
+        ControlMesh { faces, ..mesh }
+    }
+
+    fn tagged(mesh: ControlMesh) -> ControlMesh {
+        let faces: Vec<&[u32]> = mesh.faces.iter().collect();
+        let crease = |f: usize, sharpness| Crease { vertices: [faces[f][1], faces[f][2]], sharpness };
+        let creases = vec![
+            crease(40, Sharpness::Infinite),
+            crease(47, Sharpness::Finite(1.5)),
+            crease(77, Sharpness::Finite(0.5)),
+        ];
+        let corners = vec![Corner { vertex: faces[9][2], sharpness: Sharpness::Infinite }];
+        ControlMesh { creases, corners, holes: vec![3, 60], ..mesh }
+    }
+
+    /// What a piece is, and its points as weights on the cage.
+    type Found = (String, Vec<Vec<(u32, f64)>>);
+
+    fn found(table: &PatchTable, what: String, points: &[u32]) -> Found {
+        let weights = |&point: &u32| match point.checked_sub(table.cage_count as u32) {
+            None => vec![(point, 1.0)],
+            Some(row) => table.local.row(row as usize).collect(),
+        };
+        (what, points.iter().map(weights).collect())
+    }
+
+    fn pieces(table: &PatchTable, node: Node, out: &mut Vec<Found>) {
+        match node.piece() {
+            Piece::Leaf(index) => out.push(found(table, "leaf".into(), table.leaf(index))),
+            Piece::Tail(index) => {
+                let tail = table.tail(index);
+                let what = format!("{:?} at {}", table.basis(tail).kind, tail.corner);
+                out.push(found(table, what, table.ring(tail)));
+            }
+            Piece::Split(index) => {
+                out.push(("split".into(), Vec::new()));
+                table.split(index).iter().for_each(|&child| pieces(table, child, out));
+            }
+        }
+    }
+
+    fn root(table: &PatchTable, root: u32) -> Vec<Found> {
+        let mut out = Vec::new();
+        match table.root_leaf(root) {
+            Some(net) => out.push(found(table, "leaf".into(), net)),
+            None if table.is_visible(root as usize) => pieces(table, table.root_node(root), &mut out),
+            None => {}
+        }
+        out
+    }
+
+    /// Beside polygons of several sizes weights are summed in another order.
+    fn same((a, b): (&Found, &Found)) -> bool {
+        let equal = |(&(p, x), &(q, y)): (&(u32, f64), &(u32, f64))| p == q && f64::abs(x - y) < 1e-15;
+        let rows = |(a, b): (&Vec<_>, &Vec<_>)| a.len() == b.len() && a.iter().zip(b).all(equal);
+        a.0 == b.0 && a.1.len() == b.1.len() && a.1.iter().zip(&b.1).all(rows)
+    }
+
+    #[test]
+    fn the_quick_way_makes_the_same_table() {
+        let studded = shapes::studded_torus(16, 12, 4);
+        let meshes = [
+            studded.clone(),
+            shapes::cube(),
+            shapes::disk(5, 3),
+            with_polygons(shapes::torus(15, 9)),
+            with_polygons(studded.clone()),
+            with_polygons(shapes::grid(9, 7)),
+            tagged(studded.clone()),
+            tagged(with_polygons(studded)),
+        ];
+        for mesh in meshes {
+            let level = Level::new(&mesh).unwrap();
+            let (quick, general) = (table(&level), grow(&level, 0));
+            if level.hidden_faces().is_empty() && quick.starts.is_empty() && !level.has_tags() {
+                assert_eq!(quick.statistics(), general.statistics());
+            }
+            for number in 0..quick.len() as u32 {
+                let (quick, general) = (root(&quick, number), root(&general, number));
+                assert!(quick.len() == general.len() && quick.iter().zip(&general).all(same), "{number}");
+            }
         }
     }
 }

@@ -30,7 +30,7 @@ impl Below {
     }
 
     /// Adds a vertex of the level as weights on the cage.
-    fn write(&self, vertex: u32, share: f64, row: &mut Row) {
+    pub(super) fn write(&self, vertex: u32, share: f64, row: &mut Row) {
         let mut mask = Row::with_capacity(32);
         self.part.level.child_mask(vertex, &mut mask);
         for &(source, weight) in mask.weights() {
@@ -47,12 +47,10 @@ impl Below {
 }
 
 /// Gives points of a level their numbers, as they are asked for.
-pub(super) struct Points<'a> {
-    /// `None` for the cage itself.
-    below: Option<&'a Below>,
+pub(super) struct Points {
     /// The number of the next point.
     next: u32,
-    /// Numbers given so far, by vertex; empty for the cage, whose vertices keep theirs.
+    /// One more than the numbers given so far, by vertex; empty for the cage, whose vertices keep theirs.
     vertices: Vec<u32>,
     mirrored: HashMap<Vec<(u32, i32)>, u32>,
     /// What has got a number, in that order.
@@ -65,26 +63,22 @@ enum New {
     Mirrored(Mirrored),
 }
 
-const UNKNOWN: u32 = u32::MAX;
-
-impl<'a> Points<'a> {
-    /// New points get numbers from `next` on.
-    pub(super) fn new(below: Option<&'a Below>, next: u32) -> Points<'a> {
-        let count = below.map_or(0, |below| below.level.topology().vertex_count());
-        Points { below, next, vertices: vec![UNKNOWN; count], mirrored: HashMap::new(), new: Vec::new() }
+impl Points {
+    /// `count` vertices get numbers from `next` on; all others keep theirs.
+    pub(super) fn new(count: usize, next: u32) -> Points {
+        // Zeros that no one has touched yet cost nothing.
+        Points { next, vertices: vec![0; count], mirrored: HashMap::new(), new: Vec::new() }
     }
 
+    #[inline]
     pub(super) fn vertex(&mut self, vertex: u32) -> u32 {
-        if self.below.is_none() {
-            return vertex;
-        }
-        let number = &mut self.vertices[vertex as usize];
-        if *number == UNKNOWN {
-            *number = self.next;
+        let Some(number) = self.vertices.get_mut(vertex as usize) else { return vertex };
+        if *number == 0 {
             self.next += 1;
+            *number = self.next;
             self.new.push(New::Vertex(vertex));
         }
-        *number
+        *number - 1
     }
 
     pub(super) fn number(&mut self, point: Mirrored) -> u32 {
@@ -100,16 +94,12 @@ impl<'a> Points<'a> {
         })
     }
 
-    /// The new points as weights on the cage.
-    pub(super) fn rows(&self) -> StencilTable {
+    /// The new points as rows; `write` adds a vertex, times a share.
+    pub(super) fn rows(&self, write: impl Fn(u32, f64, &mut Row) + Sync + Send) -> StencilTable {
         StencilTable::from_rows(self.new.len(), |i, row| {
-            let mut add = |vertex: u32, share: f64| match self.below {
-                None => row.add(VertexId(vertex), share),
-                Some(below) => below.write(vertex, share, row),
-            };
             match &self.new[i] {
-                New::Vertex(vertex) => add(*vertex, 1.0),
-                New::Mirrored(terms) => terms.iter().for_each(|&(vertex, share)| add(vertex, share)),
+                New::Vertex(vertex) => write(*vertex, 1.0, row),
+                New::Mirrored(terms) => terms.iter().for_each(|&(vertex, share)| write(vertex, share, row)),
             }
             row.expand_face_points(|_, _, _| ());
         })

@@ -1,5 +1,6 @@
 //! `PatchTable`: what every parametric face is made of.
 
+use std::ops::Range;
 use std::sync::OnceLock;
 
 use super::chain::ChainBasis;
@@ -53,6 +54,22 @@ pub struct PatchTable {
 #[repr(align(64))]
 pub(crate) struct Sources(pub(crate) [u32; 16]);
 
+impl Sources {
+    /// A root that is no leaf: [`NO_LEAF`], then its node.
+    pub(super) fn node(node: Node) -> Sources {
+        let mut slot = [0; 16];
+        slot[..2].copy_from_slice(&[NO_LEAF, node.bits()]);
+        Sources(slot)
+    }
+
+    /// A root that is a tail: the tail follows its node.
+    pub(super) fn tail(node: Node, Tail { first, kind, corner }: Tail) -> Sources {
+        let mut root = Sources::node(node);
+        root.0[2..5].copy_from_slice(&[first, kind, corner]);
+        root
+    }
+}
+
 /// Stands first in a root that is not a leaf; no point has this number.
 pub(super) const NO_LEAF: u32 = u32::MAX;
 
@@ -78,8 +95,8 @@ pub struct PatchStatistics {
 impl PatchTable {
     /// The table of a level.
     ///
-    /// Costs some 0.1 microseconds a regular quad and a few times that where there is an extraordinary vertex; other
-    /// polygons, creases and quads with several extraordinary vertices cost some microseconds. Runs on all cores.
+    /// Costs some 0.1 microseconds a quad with at most one extraordinary vertex, and some two where there are several;
+    /// other polygons, creases and boundaries cost some microseconds. Runs on all cores.
     pub fn new(level: &Level) -> PatchTable {
         build::table(level)
     }
@@ -197,6 +214,17 @@ impl PatchTable {
     pub(crate) fn root_tail(&self, root: u32) -> Tail {
         let [_, _, first, kind, corner, ..] = self.roots[root as usize].0;
         Tail { first, kind, corner }
+    }
+
+    /// The first parametric face of a range that is not visible.
+    pub(crate) fn first_hidden(&self, faces: Range<usize>) -> Option<usize> {
+        let first = self.hidden.partition_point(|&hidden| (hidden as usize) < faces.start);
+        self.hidden.get(first).map(|&hidden| hidden as usize).filter(|hidden| faces.contains(hidden))
+    }
+
+    /// Number of kinds of chains.
+    pub(crate) fn kind_count(&self) -> usize {
+        self.kinds.len()
     }
 
     /// Asks for what is stored about a parametric face, long before it is needed.

@@ -1,11 +1,13 @@
 //! Refinement: every halfedge becomes four.
 
+mod ahead;
 mod fine;
 mod points;
 pub(crate) mod split;
 mod step;
 mod uniform;
 
+pub(crate) use ahead::Ahead;
 pub use fine::{FineMesh, TooDeep};
 pub use step::Step;
 pub use uniform::Refinement;

@@ -26,46 +26,51 @@ use crate::mesh::{EdgeId, FaceId, HalfedgeId, Topology, VertexId};
 /// The corners of quad `h` of the next level, in its order `o, e, f, p`.
 #[inline]
 pub(crate) fn child_quad(parent: &impl Connectivity, h: HalfedgeId) -> [u32; 4] {
+    [0, 1, 2, 3].map(|k| child_origin(parent, h, k))
+}
+
+/// Corner `k` of quad `h` of the next level.
+#[inline(always)]
+pub(super) fn child_origin(parent: &impl Connectivity, h: HalfedgeId, k: u32) -> u32 {
     let vertices = parent.vertex_count() as u32;
     let edge_points = vertices + parent.face_count() as u32;
-    [
-        parent.origin(h).0,
-        edge_points + parent.edge(h).0,
-        vertices + parent.face(h).0,
-        edge_points + parent.edge(parent.prev(h)).0,
-    ]
+    match k {
+        0 => parent.origin(h).0,
+        1 => edge_points + parent.edge(h).0,
+        2 => vertices + parent.face(h).0,
+        _ => edge_points + parent.edge(parent.prev(h)).0,
+    }
 }
 
-/// The twins of the halfedges of quad `h` of the next level.
-#[inline]
-fn child_twins(parent: &impl Connectivity, h: HalfedgeId) -> [u32; 4] {
-    let prev = parent.prev(h);
-    [
-        parent.twin(h).map_or(NONE, |twin| 4 * parent.next(twin).0 + 3),
-        4 * parent.next(h).0 + 2,
-        4 * prev.0 + 1,
-        parent.twin(prev).map_or(NONE, |twin| 4 * twin.0),
-    ]
+/// The twin of halfedge `4h + k` of the next level.
+#[inline(always)]
+pub(super) fn child_twin(parent: &impl Connectivity, h: HalfedgeId, k: u32) -> u32 {
+    match k {
+        0 => parent.twin(h).map_or(NONE, |twin| 4 * parent.next(twin).0 + 3),
+        1 => 4 * parent.next(h).0 + 2,
+        2 => 4 * parent.prev(h).0 + 1,
+        _ => parent.twin(parent.prev(h)).map_or(NONE, |twin| 4 * twin.0),
+    }
 }
 
-/// The edges of the halfedges of quad `h` of the next level. The half at the origin of the smaller halfedge is `2e`,
-/// the other `2e + 1`.
-#[inline]
-fn child_edges(parent: &impl Connectivity, h: HalfedgeId) -> [u32; 4] {
+/// The edge of halfedge `4h + k` of the next level. The half at the origin of the smaller halfedge is `2e`, the other
+/// `2e + 1`.
+#[inline(always)]
+pub(super) fn child_edge(parent: &impl Connectivity, h: HalfedgeId, k: u32) -> u32 {
     let inner = 2 * parent.edge_count() as u32;
     let prev = parent.prev(h);
     let is_larger = |h: HalfedgeId| u32::from(parent.twin(h).is_some_and(|twin| twin < h));
-    [
-        2 * parent.edge(h).0 + is_larger(h),
-        inner + h.0,
-        inner + prev.0,
-        2 * parent.edge(prev).0 + 1 - is_larger(prev),
-    ]
+    match k {
+        0 => 2 * parent.edge(h).0 + is_larger(h),
+        1 => inner + h.0,
+        2 => inner + prev.0,
+        _ => 2 * parent.edge(prev).0 + 1 - is_larger(prev),
+    }
 }
 
 /// The smaller halfedge of an edge of the next level.
 #[inline]
-fn child_side(parent: &impl Connectivity, e: u32) -> u32 {
+pub(super) fn child_side(parent: &impl Connectivity, e: u32) -> u32 {
     let halves = 2 * parent.edge_count() as u32;
     if e >= halves {
         let h = HalfedgeId(e - halves);
@@ -83,7 +88,7 @@ fn child_side(parent: &impl Connectivity, e: u32) -> u32 {
 
 /// A halfedge that leaves a vertex of the next level, on a boundary the one without twin.
 #[inline]
-fn child_outgoing(parent: &impl Connectivity, v: u32) -> u32 {
+pub(super) fn child_outgoing(parent: &impl Connectivity, v: u32) -> u32 {
     let (vertices, faces) = (parent.vertex_count() as u32, parent.face_count() as u32);
     if v < vertices {
         parent.outgoing(VertexId(v)).map_or(NONE, |h| 4 * h.0)
@@ -111,8 +116,10 @@ fn split(parent: &impl Connectivity) -> Topology {
     let half = |h: usize| HalfedgeId(h as u32);
     Topology {
         origin: par::collect(halfedges, |h| child_quad(parent, half(h))).into_flattened(),
-        twin: par::collect(halfedges, |h| child_twins(parent, half(h))).into_flattened(),
-        edge: par::collect(halfedges, |h| child_edges(parent, half(h))).into_flattened(),
+        twin: par::collect(halfedges, |h| [0, 1, 2, 3].map(|k| child_twin(parent, half(h), k)))
+            .into_flattened(),
+        edge: par::collect(halfedges, |h| [0, 1, 2, 3].map(|k| child_edge(parent, half(h), k)))
+            .into_flattened(),
         first_side: par::collect(2 * edges + halfedges, |e| child_side(parent, e as u32)),
         outgoing: par::collect(vertices + faces + edges, |v| child_outgoing(parent, v as u32)),
         layout: Layout::Quads,

@@ -68,6 +68,9 @@ impl Row {
 
 /// Sorts weights by source, and sums those on the same source.
 pub(crate) fn join(weights: &mut Vec<(u32, f64)>) {
+    if weights.is_sorted_by(|a, b| a.0 < b.0) {
+        return;
+    }
     // Stable: equal sources are summed in the order in which they were named.
     weights.sort_by_key(|&(source, _)| source);
     weights.dedup_by(|next, kept| {

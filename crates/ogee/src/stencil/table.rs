@@ -34,15 +34,31 @@ impl StencilTable {
             }
             part
         });
-        let mut table = StencilTable::default();
-        table.starts.push(0);
+        let total: usize = chunks.iter().map(|part| part.sources.len()).sum();
+        u32::try_from(total).expect("fewer than 2^32 weights in a table");
+        // Zeros that no one has touched yet cost nothing.
+        let mut table =
+            StencilTable { starts: vec![0; count + 1], sources: vec![0; total], weights: vec![0.0; total] };
+        let (mut starts, mut sources, mut weights) =
+            (&mut table.starts[1..], &mut table.sources[..], &mut table.weights[..]);
+        let mut offset = 0;
+        let mut copies = Vec::with_capacity(chunks.len());
         for part in chunks {
-            let offset = table.sources.len();
-            u32::try_from(offset + part.sources.len()).expect("fewer than 2^32 weights in a table");
-            table.starts.extend(part.starts.iter().map(|end| end + offset as u32));
-            table.sources.extend(part.sources);
-            table.weights.extend(part.weights);
+            let (rows, entries) = (part.starts.len(), part.sources.len());
+            let (own_starts, own_sources, own_weights);
+            (own_starts, starts) = starts.split_at_mut(rows);
+            (own_sources, sources) = sources.split_at_mut(entries);
+            (own_weights, weights) = weights.split_at_mut(entries);
+            copies.push((part, own_starts, own_sources, own_weights, offset));
+            offset += entries as u32;
         }
+        par::each(copies, |(part, starts, sources, weights, offset)| {
+            for (start, end) in starts.iter_mut().zip(part.starts) {
+                *start = end + offset;
+            }
+            sources.copy_from_slice(&part.sources);
+            weights.copy_from_slice(&part.weights);
+        });
         table
     }
 
@@ -80,6 +96,22 @@ impl StencilTable {
         self.starts.extend(other.starts.iter().skip(1).map(|end| end + offset as u32));
         self.sources.extend_from_slice(&other.sources);
         self.weights.extend_from_slice(&other.weights);
+    }
+
+    /// The same rows over only those of `count` sources that they name, and these sources.
+    pub(crate) fn over_used(mut self, count: usize) -> (StencilTable, Vec<u32>) {
+        // Zeros that no one has touched yet cost nothing.
+        let mut places = vec![0; count];
+        let mut used = Vec::new();
+        for source in &mut self.sources {
+            let place = &mut places[*source as usize];
+            if *place == 0 {
+                used.push(*source);
+                *place = used.len() as u32;
+            }
+            *source = *place - 1;
+        }
+        (self, used)
     }
 
     /// Number of rows.

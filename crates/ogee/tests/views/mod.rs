@@ -3,9 +3,10 @@
 #![allow(dead_code, unreachable_pub, reason = "each claim uses a part of it")]
 
 use ogee::quality::{
-    Field, LevelLines, Levels, LimitView, LineOptions, PlaneLight, Ray, Surface, Viewer, level_lines,
+    Field, LevelLines, Levels, LimitView, LineOptions, PlaneLight, Ray, Surface, Viewer, bounding_box,
+    level_lines,
 };
-use ogee::{ControlMesh, Derivatives, Level, LimitSurface, PatchTable, Samples, Vec3};
+use ogee::{ControlMesh, Level, LimitSurface, PatchTable, Vec3};
 
 /// Of the size: what chords may be off by unless something else is said.
 pub const TOLERANCE: f64 = 1e-4;
@@ -17,25 +18,14 @@ pub fn with_view<T>(mesh: &ControlMesh, f: impl FnOnce(&LimitView<'_>) -> T) -> 
     f(&LimitView::new(&level, &surface))
 }
 
-/// The box around the corners and middles of all squares.
-pub fn bounds(view: &dyn Surface) -> [Vec3; 2] {
-    let places = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.5, 0.5]];
-    let squares = view.layout().squares().iter();
-    let at: Vec<_> = squares.flat_map(|square| places.map(|[s, t]| square.at(s, t))).collect();
-    let mut samples = Samples::default();
-    view.evaluate(&at, Derivatives::None, &mut samples);
-    let first = samples.position[0];
-    samples.position.iter().fold([first; 2], |[a, b], &p| [a.min(p), b.max(p)])
-}
-
 pub fn size(view: &dyn Surface) -> f64 {
-    let [lower, upper] = bounds(view);
+    let [lower, upper] = bounding_box(view).unwrap();
     upper.distance(lower)
 }
 
 /// A plane above a surface, cut off at one diagonal to each side.
 pub fn ceiling(view: &dyn Surface) -> PlaneLight {
-    let [lower, upper] = bounds(view);
+    let [lower, upper] = bounding_box(view).unwrap();
     let size = upper.distance(lower);
     PlaneLight {
         centre: 0.5 * (lower + upper) + Vec3::new(0.0, 0.0, 0.5 * (upper.z - lower.z) + 0.5 * size),

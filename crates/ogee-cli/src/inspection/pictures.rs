@@ -1,0 +1,134 @@
+//! The pictures of a page.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use ogee::Vec3;
+use ogee::quality::{PlaneLight, Surface};
+use ogee_render::{
+    ANGLE, Camera, Pattern, Quantity, RenderError, Sampling, Scene, Style, THREE_QUARTER, outline, render,
+    seen,
+};
+
+use super::marks::Mark;
+
+/// A picture on the page.
+pub(super) struct Picture {
+    pub(super) title: &'static str,
+    pub(super) caption: &'static str,
+    /// The address of the picture: all of it.
+    pub(super) source: String,
+    /// Number and place of each mark that is seen, in pixels.
+    pub(super) marks: Vec<(usize, [f64; 2])>,
+    /// Where the colours of a map end.
+    pub(super) limit: Option<f64>,
+}
+
+/// Width and height on the page; the view whose eye sees the lines that are measured.
+pub(crate) const SIZE: [u32; 2] = [720, 540];
+
+/// Samples along a side of a pixel.
+const SAMPLES: u32 = 2;
+
+/// Where else one may look from. The one that shows most of what the front hides is taken.
+const OTHER_SIDES: [(Vec3, &str); 6] = [
+    (Vec3::new(-0.6, 0.75, 0.28), "From behind"),
+    (Vec3::new(-0.6, 0.75, -0.45), "From behind and below"),
+    (Vec3::new(0.55, -0.7, -0.6), "From the front and below"),
+    (Vec3::new(-0.55, -0.7, 0.46), "From the left"),
+    (Vec3::new(0.2, -0.3, 0.93), "From above"),
+    (Vec3::new(0.2, -0.3, -0.93), "From below"),
+];
+
+/// Towards the light of isophotes.
+const LAMP: Vec3 = Vec3::new(0.36, -0.48, 0.8);
+
+/// The axis around which zebra stripes run.
+const ACROSS: Vec3 = Vec3::new(1.0, 0.0, 0.0);
+
+/// Lines of light over the diagonal of the surface, and the bright share of each.
+const LINES: f64 = 10.0;
+const WIDTH: f64 = 0.3;
+
+/// All pictures; `eye` is that whose reflection lines were measured under `light`.
+pub(super) fn pictures(
+    surface: &dyn Surface,
+    size: f64,
+    light: PlaneLight,
+    marks: &[Mark],
+) -> Result<Vec<Picture>, RenderError> {
+    let points = outline(surface);
+    let places: Vec<Vec3> = marks.iter().map(|mark| mark.position).collect();
+    let look = |from: Vec3| {
+        let camera = Camera::fit_from(from, &points, ANGLE, SIZE);
+        let shown = camera.view(SIZE).map(|view| seen(surface, &view, &places));
+        (camera, shown.unwrap_or_default())
+    };
+    let (front, in_front) = look(THREE_QUARTER);
+    let mut other = (look(OTHER_SIDES[0].0), OTHER_SIDES[0].1);
+    let hidden = |shown: &[Option<[f64; 2]>]| {
+        shown.iter().zip(&in_front).filter(|(here, there)| here.is_some() && there.is_none()).count()
+    };
+    for (from, title) in OTHER_SIDES.into_iter().skip(1).filter(|_| in_front.contains(&None)) {
+        let side = look(from);
+        if hidden(&side.1) > hidden(&other.0.1) {
+            other = (side, title);
+        }
+    }
+    let ((back, behind), other_side) = other;
+    let pattern = Pattern::Lines { period: size / LINES, width: WIDTH, phase: 0.0 };
+    let none = Vec::new();
+    let wanted = [
+        (front, Style::Shaded, &in_front, "From the front", "The numbers are those of the table below."),
+        (
+            back,
+            Style::Shaded,
+            &behind,
+            other_side,
+            "What the front hides. Marks that neither shows are left out.",
+        ),
+        (
+            front,
+            Style::Reflection { light, pattern },
+            &none,
+            "Reflection lines",
+            "Tubes of light above, mirrored in the surface. Lines break off where faces meet at an angle and kink where \
+             curvature jumps; where it is dark, no tube is seen.",
+        ),
+        (
+            front,
+            Style::Zebra { axis: ACROSS, count: 12.0 },
+            &none,
+            "Zebra",
+            "Stripes of a world far away, mirrored: they reach every side, also those that the tubes of light do not.",
+        ),
+        (
+            front,
+            Style::Isophote { light: LAMP, step: 10.0 },
+            &none,
+            "Isophotes",
+            "Bands of equal angle between the normal and a light from the front and above, 10 degrees for a dark and a \
+             bright one together. They do not move with the eye.",
+        ),
+        (
+            front,
+            Style::Curvature { quantity: Quantity::Mean, limit: None },
+            &none,
+            "Mean curvature",
+            "Blue where the surface bulges, red where it is hollow, grey where it is flat or bends both ways alike.",
+        ),
+    ];
+    wanted
+        .into_iter()
+        .map(|(camera, style, shown, title, caption)| {
+            let fine = SIZE.map(|side| SAMPLES * side);
+            let scene = Scene { camera, size: fine, style, sampling: Sampling::Exact };
+            let picture = render(surface, &scene)?;
+            let mut png = Vec::new();
+            // Writing into memory does not fail.
+            let _ = picture.reduced(SAMPLES).image().write_png(&mut png);
+            let source = format!("data:image/png;base64,{}", STANDARD.encode(png));
+            let marks = (1..).zip(shown).filter_map(|(number, at)| Some((number, (*at)?))).collect();
+            Ok(Picture { title, caption, source, marks, limit: picture.limit })
+        })
+        .collect()
+}

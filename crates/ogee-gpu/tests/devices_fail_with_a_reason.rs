@@ -1,0 +1,47 @@
+//! No adapter, no answer, nothing to see: each is an error that says so, and none a hang.
+
+mod common;
+
+use std::time::Duration;
+
+use common::{device, with_view};
+use ogee::shapes;
+use ogee_gpu::{Device, DeviceOptions, GpuSurface, Renderer};
+use ogee_render::{Camera, Scene};
+
+#[test]
+fn a_missing_adapter_is_named() {
+    let options = DeviceOptions { name: Some("abacus".into()), ..DeviceOptions::default() };
+    let error = Device::new(&options).expect_err("no adapter is called so");
+    assert_eq!(error.code(), "no_adapter");
+    let text = error.to_string();
+    assert!(text.contains("abacus") && text.contains("vulkan"), "{text}");
+}
+
+#[test]
+fn a_device_that_takes_too_long_is_an_error() {
+    let Some(device) = device(&DeviceOptions { timeout: Duration::ZERO, ..DeviceOptions::default() }) else {
+        return;
+    };
+    with_view(&shapes::cube(), |view, _| {
+        let surface = GpuSurface::new(&device, view).expect("room for the surface");
+        let renderer = Renderer::new(&device).expect("a renderer");
+        let error =
+            renderer.render(&surface, &Scene::of(view, [800, 800])).expect_err("nobody is that quick");
+        assert_eq!(error.code(), "device_timeout");
+    });
+}
+
+#[test]
+fn a_scene_that_shows_nothing_is_an_error() {
+    let Some(device) = device(&DeviceOptions::default()) else { return };
+    with_view(&shapes::cube(), |view, _| {
+        let surface = GpuSurface::new(&device, view).expect("room for the surface");
+        let renderer = Renderer::new(&device).expect("a renderer");
+        let scene = Scene::of(view, [64, 64]);
+        let Camera { eye, at, .. } = scene.camera;
+        let away = Scene { camera: Camera { at: 2.0 * eye - at, ..scene.camera }, ..scene };
+        let error = renderer.render(&surface, &away).expect_err("the cube is behind");
+        assert_eq!(error.code(), "empty_view");
+    });
+}
