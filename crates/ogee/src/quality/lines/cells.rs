@@ -75,6 +75,15 @@ pub(super) struct Cells {
 }
 
 impl Cells {
+    /// One cell with these values at its corners, counter-clockwise, and in its middle.
+    #[cfg(test)]
+    pub(super) fn lone(cell: Cell, corners: [f64; 4], middle: f64) -> Cells {
+        let places = cell.corners().into_iter().chain(cell.centre());
+        let sample = |value| Sample { value: Some(value), is_near: true };
+        let samples = places.zip(corners.into_iter().chain([middle]).map(sample)).collect();
+        Cells { leaves: vec![cell], samples, on_sides: Default::default() }
+    }
+
     /// The field at a place, if it was asked for.
     pub(super) fn sample(&self, place: Place) -> Option<&Sample> {
         self.samples.get(&place)

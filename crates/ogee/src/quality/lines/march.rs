@@ -140,3 +140,57 @@ fn through(
         segments.push(Segment { cell, ends: [crossings[k], crossings[down]] });
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::lattice::Lattice;
+    use super::super::wanted::Wanted;
+    use super::super::{Levels, LineOptions};
+    use super::*;
+    use crate::mesh::shapes;
+    use crate::quality::{Field, LimitView, Surface};
+    use crate::{Level, LimitSurface, PatchTable, Vec3};
+
+    /// The sides of a lone cell from which and to which lines of value 0 go; 0 is below, then counter-clockwise.
+    fn ways(corners: [f64; 4], middle: f64) -> Vec<[usize; 2]> {
+        let mesh = shapes::grid(1, 1);
+        let level = Level::new(&mesh).unwrap();
+        let table = PatchTable::new(&level);
+        let surface = LimitSurface::new(&table, &mesh.points);
+        let view = LimitView::new(&level, &surface);
+        let lattice = Lattice::new(view.layout());
+        let levels = Levels::Listed(vec![0.0]);
+        let field = Field::Isophote { light: Vec3::new(0.0, 0.0, 1.0) };
+        let wanted = Wanted::new(&field, &LineOptions::new(1.0));
+        let range = [f64::NEG_INFINITY, f64::INFINITY];
+        let plan = Plan { lattice: &lattice, levels: &levels, wanted: &wanted, range, leaps: false, most: 9 };
+        let cell = Cell { start: [8, 16], size: 4 };
+        let side = |crossing: &Crossing| match (crossing.own.axis, crossing.own.start) {
+            (0, [8, 16]) => 0,
+            (1, [12, 16]) => 1,
+            (0, [8, 20]) => 2,
+            (1, [8, 16]) => 3,
+            other => panic!("{other:?}"),
+        };
+        let segments = march(0, &Cells::lone(cell, corners, middle), &plan).unwrap();
+        segments.iter().map(|segment| segment.ends.each_ref().map(side)).collect()
+    }
+
+    #[test]
+    fn what_is_below_lies_on_the_left() {
+        // The corner at the start is below: the line goes from the side below to that on the left.
+        assert_eq!(ways([-1.0, 1.0, 1.0, 1.0], 1.0), [[0, 3]]);
+        assert_eq!(ways([-1.0, -1.0, 1.0, 1.0], 0.5), [[1, 3]]);
+        assert_eq!(ways([1.0, 1.0, -1.0, -1.0], 0.5), [[3, 1]]);
+        // What is at the value is above it.
+        assert_eq!(ways([0.0, 0.0, -1.0, -1.0], 0.5), [[3, 1]]);
+        assert!(ways([0.0, 0.0, 1.0, 1.0], 0.5).is_empty());
+    }
+
+    #[test]
+    fn on_a_saddle_the_middle_decides() {
+        // Corners 0 and 2 are below. If the middle is above they are cut off, each by itself; else the others are.
+        assert_eq!(ways([-1.0, 1.0, -1.0, 1.0], 0.5), [[0, 3], [2, 1]]);
+        assert_eq!(ways([-1.0, 1.0, -1.0, 1.0], -0.5), [[0, 1], [2, 3]]);
+    }
+}
