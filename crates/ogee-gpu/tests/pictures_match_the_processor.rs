@@ -1,4 +1,5 @@
 //! Every style, every sampling: the picture of the device is that of the processor, but for the rounding of 32 bits.
+#![allow(clippy::print_stdout, clippy::unwrap_used, reason = "a test fails by panicking, and prints figures")]
 
 mod common;
 
