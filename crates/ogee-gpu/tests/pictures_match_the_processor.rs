@@ -101,6 +101,10 @@ fn compare(
                 if is_map && matches!(sampling, Sampling::Polygon(_)) {
                     continue;
                 }
+                // Here the surface hides hairs, there the mesh: with coarse meshes not the same ones.
+                if matches!(style, Style::Combs { .. }) && sampling != Sampling::Exact {
+                    continue;
+                }
                 let camera = if is_parallel { parallel(camera, bounds) } else { camera };
                 let scene = Scene { camera, size: SIZE, style: style.clone(), sampling };
                 let wanted = render(view, &scene).expect("a picture");
