@@ -129,7 +129,8 @@ fn number(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| format!("'{text}' is no number"))
 }
 
-fn positive(text: &str) -> Result<f64, String> {
+/// A number above 0.
+pub(crate) fn positive(text: &str) -> Result<f64, String> {
     number(text).and_then(|x| if x > 0.0 { Ok(x) } else { Err("it has to be above 0".to_owned()) })
 }
 

@@ -23,7 +23,7 @@ use crate::output::Destination;
 use crate::report::{Console, Table, bytes, figure};
 use crate::subject::Subject;
 use crate::system;
-use crate::view::{LightArguments, ViewArguments};
+use crate::view::{LightArguments, ViewArguments, positive};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -43,7 +43,7 @@ pub(crate) struct Lines {
     #[arg(long, value_name = "STYLE", default_value = "reflection", value_parser = formats::<LineStyle>())]
     style: LineStyle,
     /// How far chords may be from the curve, in units of the cage [default: 1e-4 of the diagonal]
-    #[arg(long, value_name = "LENGTH")]
+    #[arg(long, value_name = "LENGTH", value_parser = positive)]
     tolerance: Option<f64>,
     /// Only where the surface faces the eye
     #[arg(long)]
@@ -222,7 +222,7 @@ impl Lines {
         let refused = |error: LinesError| subject.failure(error.code(), error.to_string());
         let lines = merged(all.map_err(refused)?);
         if lines.lines.is_empty() {
-            return Err(subject.failure("no_lines", why_none(&lines)));
+            return Err(subject.failure("no_lines", why_none(&lines, &options)));
         }
         let fairness = Fairness::of_all(&lines.lines, surface, &field);
         let mut edges = Vec::new();
@@ -286,10 +286,10 @@ impl Lines {
 }
 
 /// Why there are no lines.
-fn why_none(traced: &LevelLines) -> String {
+fn why_none(traced: &LevelLines, options: &LineOptions<'_>) -> String {
     match traced.range {
         None => "no ray from the surface meets the light plane: raise it, or look from elsewhere".to_owned(),
-        Some(_) if traced.crossings > 0 => {
+        Some(_) if traced.crossings > 0 || options.front.is_some() => {
             "no line is where it was asked for: in sight, facing the eye, on the light".to_owned()
         }
         Some([low, high]) => format!(

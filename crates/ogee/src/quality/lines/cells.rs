@@ -106,8 +106,11 @@ impl Cells {
     pub(super) fn leaps(&self, cell: Cell, plan: &Plan<'_>) -> bool {
         let Some((corners, centre)) = self.values(cell) else { return true };
         let (low, high) = extent(&corners);
+        let count = plan.levels.count(low, high);
         plan.leaps
-            && plan.levels.count(low, high) > STEEP
+            && count > STEEP
+            // More is no leap but a question that asks too much.
+            && count < plan.most as f64
             && centre.is_none_or(|centre| bend(&corners, centre) > BENT * plan.levels.spacing(low, high))
     }
 

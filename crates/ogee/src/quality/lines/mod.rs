@@ -156,7 +156,7 @@ const RESIDUAL: f64 = 1e-12;
 /// Traces the lines on which a field has the wanted values.
 ///
 /// A bounded light plane cuts lines off where they leave it. On either side of a crease that never fades lines end; they
-/// end, too, at borders, and where the field has no value, to within a 256th of a face.
+/// end, too, at borders, and less than a hundredth of a face from where the field has no value, or leaps.
 ///
 /// # Errors
 /// If something asked for makes no sense, or would not fit into memory.
@@ -315,7 +315,13 @@ impl<'a> Tracing<'a> {
                 let x = if end.is_turned { 1.0 - x } else { x };
                 Some(Spot { at: self.plan.lattice.along(end.own, x), ..spot })
             };
-            let (Some(from), Some(to)) = (spot(0), spot(1)) else { continue };
+            let (Some(from), Some(to)) = (spot(0), spot(1)) else {
+                // The field leaps: as small a part of the line is left out as cells can be.
+                if segment.cell.size > 1 {
+                    traced.rough.push(segment.cell);
+                }
+                continue;
+            };
             let value = self.plan.levels.value(segment.ends[0].key.index);
             let inner = tracer.follow(segment, [&from, &to], value, &mut probe);
             match &inner {
