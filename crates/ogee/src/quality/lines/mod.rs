@@ -29,8 +29,7 @@ mod march;
 mod probe;
 mod wanted;
 
-use super::{Field, Surface, Viewer};
-use crate::limit::{Derivatives, Samples};
+use super::{Field, Surface, Viewer, bounding_box};
 use crate::math::{Vec3, par};
 use crate::patch::Location;
 use cells::{AllCells, Cell, Plan};
@@ -171,7 +170,11 @@ pub fn level_lines(
         return Err(LinesError::Tolerance { tolerance: options.tolerance });
     }
     let (unbounded, size_of_field) = unbounded(field).ok_or(LinesError::Field)?;
-    let size = size(surface).filter(|size| *size > 0.0 && size.is_finite()).ok_or(LinesError::NoSurface)?;
+    let [lower, upper] = bounding_box(surface).ok_or(LinesError::NoSurface)?;
+    let size = upper.distance(lower);
+    if !(size > 0.0 && size.is_finite()) {
+        return Err(LinesError::NoSurface);
+    }
     let lattice = Lattice::new(surface.layout());
     let half = match field {
         Field::Plane { light, axis, .. } => light.half[*axis],
@@ -199,18 +202,6 @@ pub fn level_lines(
         straight: traced.iter().map(|square| square.straight + square.rough.len()).sum(),
         range: cells.range(),
     })
-}
-
-/// The diagonal of a box around the middles and corners of all squares; `None` if there are none.
-fn size(surface: &dyn Surface) -> Option<f64> {
-    let squares = surface.layout().squares().iter();
-    let places = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.5, 0.5]];
-    let at: Vec<_> = squares.flat_map(|square| places.map(|[s, t]| square.at(s, t))).collect();
-    let mut samples = Samples::default();
-    surface.evaluate(&at, Derivatives::None, &mut samples);
-    let first = *samples.position.first()?;
-    let [lower, upper] = samples.position.iter().fold([first; 2], |[a, b], &p| [a.min(p), b.max(p)]);
-    Some(upper.distance(lower))
 }
 
 /// The field on a plane without an end, and the size of its values where it is not that of the surface. `None` if its
