@@ -195,6 +195,8 @@ impl Cells {
 /// The cells of all squares, none of them twice as large as one beside it or more, over smooth joints too.
 pub(super) struct AllCells {
     pub(super) squares: Vec<Cells>,
+    /// Squares whose cells are not as they were when somebody last asked.
+    changed: Vec<bool>,
     count: AtomicUsize,
 }
 
@@ -211,7 +213,8 @@ impl AllCells {
             cells.settle(square as u32, coarse.clone(), plan, &mut probe(), &count);
             cells
         });
-        let mut all = AllCells { squares, count };
+        let changed = vec![true; squares.len()];
+        let mut all = AllCells { squares, changed, count };
         all.share(plan, &probe);
         all
     }
@@ -229,6 +232,11 @@ impl AllCells {
             (rough[of(false)..of(true)].iter().map(|&(_, cell)| cell).collect(), Vec::new())
         });
         self.share(plan, &probe);
+    }
+
+    /// The squares whose cells have changed since this was last asked, all of them at first.
+    pub(super) fn news(&mut self) -> Vec<usize> {
+        (0..self.changed.len()).filter(|&square| std::mem::take(&mut self.changed[square])).collect()
     }
 
     /// The least and the greatest value that the field was seen to have.
@@ -269,8 +277,8 @@ impl AllCells {
         probe: &(impl Fn() -> Probe<'a> + Sync + Send),
         wanted: impl Fn(u32, &[Cells]) -> (Vec<Cell>, Vec<Place>) + Sync + Send,
     ) -> bool {
-        let AllCells { squares, count } = self;
-        let changed = par::map(squares.len(), |number| {
+        let AllCells { squares, count, .. } = self;
+        let new = par::map(squares.len(), |number| {
             let square = number as u32;
             let (cut, places) = wanted(square, squares);
             if cut.is_empty() && places.is_empty() {
@@ -286,9 +294,10 @@ impl AllCells {
             Some(cells)
         });
         let mut is_changed = false;
-        for (square, changed) in squares.iter_mut().zip(changed) {
-            if let Some(changed) = changed {
-                *square = changed;
+        for (number, new) in new.into_iter().enumerate() {
+            if let Some(new) = new {
+                squares[number] = new;
+                self.changed[number] = true;
                 is_changed = true;
             }
         }

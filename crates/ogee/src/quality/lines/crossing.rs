@@ -20,7 +20,7 @@ pub(super) struct Node {
 /// Crossings that one task works through.
 const CHUNK: usize = 256;
 
-/// All crossings, by key; those of `known`, which are sorted, are not sought again.
+/// Those crossings, by key, that are not among the ones that are `known` and sorted.
 pub(super) fn find<'a>(
     crossings: impl Iterator<Item = Crossing>,
     known: &[Node],
@@ -33,15 +33,11 @@ pub(super) fn find<'a>(
         crossings.map(|Crossing { key, ends, .. }| Node { key, ends, found: None }).collect();
     nodes.sort_unstable_by_key(|node| node.key);
     nodes.dedup_by_key(|node| node.key);
+    nodes.retain(|node| known.binary_search_by_key(&node.key, |known| known.key).is_err());
     let chunks = par::map(nodes.len().div_ceil(CHUNK), |chunk| {
         let mut chunk = nodes[chunk * CHUNK..nodes.len().min((chunk + 1) * CHUNK)].to_vec();
-        let mut searches = Vec::new();
-        for (number, node) in chunk.iter_mut().enumerate() {
-            match known.binary_search_by_key(&node.key, |known| known.key) {
-                Ok(place) => *node = known[place],
-                Err(_) => searches.push((number, Search::new(node, value(node.key.index), lattice))),
-            }
-        }
+        let search = |node: &Node| Search::new(node, value(node.key.index), lattice);
+        let mut searches: Vec<(usize, Search)> = chunk.iter().map(search).enumerate().collect();
         let mut probe = probe();
         // All of them a step at a time: many places are evaluated quicker than one.
         for step in 0..STEPS {

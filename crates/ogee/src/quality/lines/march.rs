@@ -15,7 +15,7 @@ pub(super) struct Key {
 }
 
 /// A crossing, as one cell sees it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Crossing {
     pub(super) key: Key,
     /// The edge in the cell's own square.
@@ -27,7 +27,7 @@ pub(super) struct Crossing {
 }
 
 /// A piece of a line, through one cell.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Segment {
     pub(super) cell: Cell,
     /// Where it comes from and goes to.

@@ -230,7 +230,8 @@ fn unbounded(field: &Field) -> Option<(Field, Option<f64>)> {
 /// What was traced in one square.
 #[derive(Default)]
 struct Traced {
-    segments: Vec<Segment>,
+    /// How many pieces there were, wanted or not.
+    segments: usize,
     pieces: Vec<Piece>,
     /// Cells in which a line could not be followed.
     rough: Vec<Cell>,
@@ -255,31 +256,33 @@ impl<'a> Tracing<'a> {
         let Tracing { plan, tracer, .. } = *self;
         let too_many = LinesError::TooMany { most: plan.most };
         let mut cells = AllCells::new(plan, || self.probe());
-        let (mut nodes, mut traced) = (Vec::new(), Vec::<Traced>::new());
+        let mut nodes: Vec<Node> = Vec::new();
+        let mut traced = Vec::new();
+        traced.resize_with(cells.squares.len(), Traced::default);
         for round in 0..=DEPTH {
             if cells.are_too_many(plan) {
                 return Err(too_many);
             }
-            let squares = &cells.squares;
-            let marched =
-                par::map(squares.len(), |square| march::march(square as u32, &squares[square], plan));
-            let segments: Option<Vec<Vec<Segment>>> = marched.into_iter().collect();
-            let segments = segments.filter(|all| all.iter().map(Vec::len).sum::<usize>() <= plan.most);
+            // Most squares stay as they are from one round to the next.
+            let news = cells.news();
+            let march = |k: usize| march::march(news[k] as u32, &cells.squares[news[k]], plan);
+            let segments: Option<Vec<Vec<Segment>>> = par::map(news.len(), march).into_iter().collect();
             let segments = segments.ok_or(too_many.clone())?;
+            for (&square, segments) in news.iter().zip(&segments) {
+                traced[square].segments = segments.len();
+            }
+            if traced.iter().map(|square| square.segments).sum::<usize>() > plan.most {
+                return Err(too_many);
+            }
             let crossings = segments.iter().flatten().flat_map(|segment| segment.ends);
             let value = |index| plan.levels.value(index);
-            nodes = crossing::find(crossings, &nodes, plan.lattice, value, tracer.residual, || self.probe());
-            // Most squares stay as they are from one round to the next.
-            let is_new =
-                |square: usize| traced.get(square).is_none_or(|old| old.segments != segments[square]);
-            let new = par::map(segments.len(), |square| {
-                is_new(square).then(|| self.trace(segments[square].clone(), &nodes))
-            });
-            traced.resize_with(segments.len(), Traced::default);
-            for (square, new) in new.into_iter().enumerate() {
-                if let Some(new) = new {
-                    traced[square] = new;
-                }
+            let probe = || self.probe();
+            nodes.extend(crossing::find(crossings, &nodes, plan.lattice, value, tracer.residual, probe));
+            // Stable: runs that are sorted are merged.
+            nodes.sort_by_key(|node| node.key);
+            let new = par::map(news.len(), |k| self.trace(&segments[k], &nodes));
+            for (&square, new) in news.iter().zip(new) {
+                traced[square] = new;
             }
             let rough = (0..)
                 .zip(&traced)
@@ -294,10 +297,10 @@ impl<'a> Tracing<'a> {
     }
 
     /// The lines through one square.
-    fn trace(&self, segments: Vec<Segment>, nodes: &[Node]) -> Traced {
+    fn trace(&self, segments: &[Segment], nodes: &[Node]) -> Traced {
         let (tracer, mut probe) = (self.tracer, self.probe());
-        let mut traced = Traced::default();
-        for segment in &segments {
+        let mut traced = Traced { segments: segments.len(), ..Traced::default() };
+        for segment in segments {
             // In the parameters of the cell's own square.
             let spot = |k: usize| -> Option<Spot> {
                 let end = &segment.ends[k];
@@ -325,7 +328,6 @@ impl<'a> Tracing<'a> {
             chain.push(to);
             traced.pieces.extend(tracer.clip(segment, &chain, value, &mut probe));
         }
-        traced.segments = segments;
         traced
     }
 }
