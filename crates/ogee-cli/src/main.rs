@@ -25,6 +25,8 @@ mod commands;
 mod drawing;
 mod error;
 mod evaluation;
+#[cfg(feature = "gpu")]
+mod gpu;
 mod inspection;
 mod names;
 mod output;

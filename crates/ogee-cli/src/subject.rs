@@ -95,6 +95,18 @@ impl Subject {
         }
     }
 
+    /// Lets somebody look at the limit surface, if it is one.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn look_at_limit<T>(&self, look: impl FnOnce(&LimitView<'_>) -> T) -> Option<T> {
+        match &self.kind {
+            Kind::Cage { cage, level, table } => {
+                let surface = LimitSurface::new(table, &cage.mesh().points);
+                Some(look(&LimitView::new(level, &surface)))
+            }
+            Kind::Patches(_) => None,
+        }
+    }
+
     /// What the reader passed over, and what else is worth knowing.
     pub(crate) fn notes(&self) -> Vec<Finding> {
         self.cage().map_or_else(Vec::new, |cage| {

@@ -285,6 +285,7 @@ fn what_this_build_does_not_have_is_said() {
         "eval cube.obj --uniform 2 -o a.csv --lens c1",
         "network cube.obj",
         "lens cube.obj",
+        #[cfg(not(feature = "gpu"))]
         "render cube.obj -o a.png --device gpu",
         "batch plan",
         "view",

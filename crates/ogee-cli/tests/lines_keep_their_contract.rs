@@ -6,8 +6,11 @@ mod common;
 use common::{CUBE, Folder, models};
 use serde_json::{Value, json};
 
+/// The name of a group, and the numbers of a line's points.
+type Group = (String, Vec<usize>);
+
 /// The coordinates of the vertices and the polylines of an OBJ, from 0, with their groups.
-fn obj(text: &str) -> (Vec<[f64; 3]>, Vec<(String, Vec<usize>)>) {
+fn obj(text: &str) -> (Vec<[f64; 3]>, Vec<Group>) {
     let (mut vertices, mut lines, mut group) = (Vec::new(), Vec::new(), String::new());
     for line in text.lines() {
         let mut words = line.split(' ');

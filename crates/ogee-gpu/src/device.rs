@@ -51,6 +51,7 @@ pub struct Device {
     pub(crate) queue: wgpu::Queue,
     pub(crate) storage: Storage,
     name: String,
+    is_software: bool,
     /// Points that one binding holds: a power of two, so that no net lies in two of them.
     pub(crate) part: u32,
     timeout: Duration,
@@ -103,7 +104,13 @@ impl Device {
         });
         let info = adapter.get_info();
         let name = format!("{} ({})", info.name, info.backend);
-        Ok(Device { device, queue, storage, name, part, timeout: options.timeout, fault })
+        let is_software = info.device_type == DeviceType::Cpu;
+        Ok(Device { device, queue, storage, name, is_software, part, timeout: options.timeout, fault })
+    }
+
+    /// True if a program stands for the device: the renderer in `f64` does as well.
+    pub fn is_software(&self) -> bool {
+        self.is_software
     }
 
     /// The name of the adapter and the interface to it.

@@ -1,4 +1,5 @@
 //! Every style, every sampling: the picture of the device is that of the processor, but for the rounding of 32 bits.
+#![allow(clippy::print_stdout, clippy::unwrap_used, reason = "a test fails by panicking, and prints figures")]
 
 mod common;
 
@@ -98,6 +99,10 @@ fn compare(
             for (is_parallel, sampling) in [(false, Sampling::Exact), other] {
                 let is_map = matches!(style, Style::Curvature { .. });
                 if is_map && matches!(sampling, Sampling::Polygon(_)) {
+                    continue;
+                }
+                // Here the surface hides hairs, there the mesh: with coarse meshes not the same ones.
+                if matches!(style, Style::Combs { .. }) && sampling != Sampling::Exact {
                     continue;
                 }
                 let camera = if is_parallel { parallel(camera, bounds) } else { camera };

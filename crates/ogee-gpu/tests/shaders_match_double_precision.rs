@@ -1,4 +1,5 @@
 //! Points that shaders evaluate in single precision against the golden samples and against evaluation in double precision.
+#![allow(clippy::print_stdout, clippy::unwrap_used, reason = "a test fails by panicking, and prints figures")]
 
 mod common;
 #[path = "../../ogee/tests/golden/mod.rs"]

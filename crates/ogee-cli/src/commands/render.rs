@@ -121,11 +121,18 @@ impl Format for PictureFormat {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Device {
     Cpu,
+    #[cfg(feature = "gpu")]
+    Gpu,
     Auto,
 }
 
 impl Format for Device {
-    const NAMES: &'static [(&'static str, Device)] = &[("cpu", Device::Cpu), ("auto", Device::Auto)];
+    const NAMES: &'static [(&'static str, Device)] = &[
+        ("cpu", Device::Cpu),
+        #[cfg(feature = "gpu")]
+        ("gpu", Device::Gpu),
+        ("auto", Device::Auto),
+    ];
     const ELSEWHERE: &'static [&'static str] = &["gpu"];
     const OPTION: &'static str = "--device";
 }
@@ -207,7 +214,7 @@ impl Render {
         };
         progress.step("drawing");
         let scene = subject.look(|surface| self.scene(&subject, surface, image))?;
-        let picture = subject.look(|surface| draw(&subject, surface, &scene))?;
+        let Drawn { picture, device, adapter, upload, note } = self.draw(&subject, &scene)?;
         let mut pixels = picture.reduced(self.samples).image();
         if let Some(limit) = picture.limit {
             pixels.add_legend(&scene.style, limit);
@@ -219,7 +226,7 @@ impl Render {
                 ref style => style.clone(),
             };
             let scene = Scene { style, ..scene };
-            let second = other.look(|surface| draw(other, surface, &scene))?;
+            let second = self.draw(other, &scene)?.picture;
             let mut second = second.reduced(self.samples).image();
             pixels.add_caption(&subject.name);
             second.add_caption(&other.name);
@@ -232,13 +239,11 @@ impl Render {
         drop(progress);
 
         let mut notes = subject.notes();
-        if self.device == Device::Auto {
-            notes.push(Finding::in_file("drawn_on_cpu", "this build draws on the CPU", &subject.name));
-        }
+        notes.extend(note);
         let stages = picture.seconds;
         let report = Report {
-            device: "cpu",
-            adapter: None,
+            device,
+            adapter: adapter.as_deref(),
             style: Look::NAMES.iter().find(|(_, look)| *look == self.style).map_or("", |(name, _)| name),
             size: self.view.size,
             fragments: picture.fragments,
@@ -248,7 +253,7 @@ impl Render {
             seconds: Seconds {
                 read: subject.read_seconds,
                 prepare: subject.prepare_seconds,
-                upload: 0.0,
+                upload,
                 ids: stages.ids,
                 position: stages.position,
                 colour: stages.colour,
@@ -273,6 +278,44 @@ impl Render {
         let camera = self.view.camera(&outline(surface))?;
         let size = self.view.size.map(|side| side * self.samples);
         Ok(Scene { camera, size, style: self.style(bounds, image), sampling: self.sampling.0 })
+    }
+
+    #[cfg(not(feature = "gpu"))]
+    fn draw(&self, subject: &Subject, scene: &Scene) -> Result<Drawn, Failure> {
+        let why = (self.device == Device::Auto).then(|| "this build draws on the CPU".to_owned());
+        on_cpu(subject, scene, why)
+    }
+
+    #[cfg(feature = "gpu")]
+    fn draw(&self, subject: &Subject, scene: &Scene) -> Result<Drawn, Failure> {
+        use crate::gpu::{Unfit, draw};
+        if self.device == Device::Cpu {
+            return on_cpu(subject, scene, None);
+        }
+        let is_wanted = self.device == Device::Gpu;
+        match draw(subject, scene, is_wanted) {
+            Ok((picture, adapter, upload)) => {
+                Ok(Drawn { picture, device: "gpu", adapter: Some(adapter), upload, note: None })
+            }
+            Err(Unfit::Device(ogee_gpu::GpuError::Scene(error))) => {
+                Err(subject.failure(error.code(), error.to_string()))
+            }
+            Err(Unfit::Device(error)) if is_wanted => Err(subject.failure(error.code(), error.to_string())),
+            Err(Unfit::Patches) if is_wanted => {
+                let message = "patches of a part are drawn on the CPU; say --device cpu";
+                Err(subject.failure("patches_on_gpu", message))
+            }
+            Err(unfit) => {
+                let why = match unfit {
+                    Unfit::Patches => "patches of a part are drawn on the CPU".to_owned(),
+                    Unfit::Software(name) => {
+                        format!("drawn on the CPU: the graphics adapter {name} is software")
+                    }
+                    Unfit::Device(error) => format!("drawn on the CPU: {error}"),
+                };
+                on_cpu(subject, scene, Some(why))
+            }
+        }
     }
 
     /// The picture on the light plane, if there is one.
@@ -327,8 +370,22 @@ impl Render {
     }
 }
 
-fn draw(subject: &Subject, surface: &dyn Surface, scene: &Scene) -> Result<Picture, Failure> {
-    render(surface, scene).map_err(|error| subject.failure(error.code(), error.to_string()))
+/// A picture, and what drew it.
+struct Drawn {
+    picture: Picture,
+    device: &'static str,
+    adapter: Option<String>,
+    /// How long opening a device and sending the surface took.
+    upload: f64,
+    note: Option<Finding>,
+}
+
+/// Draws on the CPU; `why` tells those who did not ask for it.
+fn on_cpu(subject: &Subject, scene: &Scene, why: Option<String>) -> Result<Drawn, Failure> {
+    let picture = subject.look(|surface| render(surface, scene));
+    let picture = picture.map_err(|error| subject.failure(error.code(), error.to_string()))?;
+    let note = why.map(|why| Finding::in_file("drawn_on_cpu", why, &subject.name));
+    Ok(Drawn { picture, device: "cpu", adapter: None, upload: 0.0, note })
 }
 
 fn is_png(path: &std::path::Path) -> bool {

@@ -1,6 +1,7 @@
 //! What tests of pictures share: a device, if there is one, and cages.
 
 #![allow(dead_code, unreachable_pub, reason = "each claim uses a part of it")]
+#![allow(clippy::print_stdout, reason = "one should know what was not tested")]
 
 use ogee::quality::LimitView;
 use ogee::{ControlMesh, Level, LimitSurface, PatchTable};

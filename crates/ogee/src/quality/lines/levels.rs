@@ -98,11 +98,11 @@ mod tests {
 
     #[test]
     fn what_is_met_between_two_values_has_one_end_open() {
-        let every = Levels::Every { first: 0.1, period: 0.2 };
-        assert_eq!(every.between(0.1, 0.5), 1..3);
-        assert_eq!(every.between(0.0, 0.1), 0..1);
-        assert_eq!(every.between(-0.7, -0.31), -4..-2);
-        assert!(every.between(0.11, 0.2).is_empty());
+        let every = Levels::Every { first: 0.125, period: 0.25 };
+        assert_eq!(every.between(0.125, 0.625), 1..3);
+        assert_eq!(every.between(0.0, 0.125), 0..1);
+        assert_eq!(every.between(-0.875, -0.4), -3..-2);
+        assert!(every.between(0.13, 0.3).is_empty());
         assert!(every.between(0.0, 1e300).is_empty());
         let listed = Levels::Listed(vec![-1.0, 0.5, 0.75]);
         assert_eq!(listed.between(-1.0, 0.5), 1..2);
