@@ -4,6 +4,7 @@
 mod cages;
 
 use std::ops::Range;
+use std::sync::Mutex;
 
 use cages::{locate, visible};
 use ogee::{
@@ -169,6 +170,38 @@ fn on_any_number_of_threads_and_in_any_parts() {
 }
 
 #[test]
+fn blocks_are_the_whole_in_parts() {
+    for mesh in [shapes::studded_torus(40, 30, 5), cages::pyramid()] {
+        let table = PatchTable::new(&Level::new(&mesh).unwrap());
+        let surface = LimitSurface::new(&table, &mesh.points);
+        for (places, what) in [(special(), Derivatives::Second), (centres(1), Derivatives::First)] {
+            let pattern = table.pattern(&places, what).unwrap();
+            let mut wanted = Samples::default();
+            for faces in [0..table.len(), 2..table.len() - 1, 3..4, 5..5] {
+                surface.eval_pattern(&pattern, faces.clone(), &mut wanted).unwrap();
+                let blocks = Mutex::new(Vec::new());
+                let take = |some: Range<usize>, samples: &Samples| {
+                    blocks.lock().unwrap().push((some.start, some.end, samples.clone()));
+                };
+                surface.visit_pattern(&pattern, faces.clone(), take).unwrap();
+                let mut blocks = blocks.into_inner().unwrap();
+                blocks.sort_by_key(|&(first, ..)| first);
+                let mut next = faces.start;
+                for (first, end, samples) in blocks {
+                    assert_eq!(first, next);
+                    let part = (first - faces.start) * places.len()..(end - faces.start) * places.len();
+                    assert_eq!(samples.position[..], wanted.position[part.clone()]);
+                    assert_eq!(samples.normal[..], wanted.normal[part.clone()]);
+                    assert_eq!(samples.flags[..], wanted.flags[part]);
+                    next = end;
+                }
+                assert_eq!(next, faces.end);
+            }
+        }
+    }
+}
+
+#[test]
 fn places_are_checked() {
     let mesh = shapes::cube();
     let table = PatchTable::new(&Level::new(&mesh).unwrap());
@@ -190,8 +223,10 @@ fn hidden_faces_are_refused() {
     surface.eval_pattern(&pattern, 7..16, &mut samples).unwrap();
     let before = samples.clone();
     for (faces, hidden) in [(0..16, 5), (5..6, 5), (6..16, 6), (0..7, 5)] {
-        let error = surface.eval_pattern(&pattern, faces, &mut samples).unwrap_err();
+        let error = surface.eval_pattern(&pattern, faces.clone(), &mut samples).unwrap_err();
         assert_eq!(error, LocationError::HiddenFace { face: FaceId(hidden) });
+        let never = |_, _: &Samples| panic!("a hidden face is no part of the surface");
+        assert_eq!(surface.visit_pattern(&pattern, faces, never).unwrap_err(), error);
     }
     assert_eq!(samples, before);
     surface.eval_pattern(&pattern, 0..5, &mut samples).unwrap();

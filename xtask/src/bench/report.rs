@@ -28,6 +28,14 @@ impl Answers {
         self.spread(|answer| Some(answer["seconds"].as_f64()? * 1e9 / answer["points"].as_f64()?))
     }
 
+    /// Nanoseconds a point, preparation left out where it was part of the time.
+    pub(crate) fn nanoseconds_prepared(&self) -> Result<Spread> {
+        self.spread(|answer| {
+            let seconds = answer["seconds"].as_f64()? - answer["prepare_seconds"].as_f64()?;
+            Some(seconds * 1e9 / answer["points"].as_f64()?)
+        })
+    }
+
     /// The checksum, if all rounds agree on it.
     pub(crate) fn checksum(&self) -> Option<&str> {
         let first = self.0.first()?["checksum"].as_str()?;

@@ -4,7 +4,7 @@ use anyhow::Result;
 
 use super::limit::{Course, FAR_LEVEL, Peers, Places};
 use super::peers::{self, Contestant};
-use super::report::{Table, rounds};
+use super::report::{Spread, Table, rounds};
 
 /// A task that has a time a point.
 struct Race {
@@ -96,23 +96,29 @@ pub(super) fn threads(courses: &[Course], faults: &mut Vec<String>) -> Result<Ta
             let (task, last) = course.task(places);
             for order in ["1", "2"] {
                 let answers = rounds(&[&ours[0], &ours[1]], task, &course.file, &[order, &last])?;
-                let [one, two] = [answers[0].nanoseconds()?, answers[1].nanoseconds()?];
                 let same = answers[0].checksum().is_some() && answers[0].checksum() == answers[1].checksum();
+                let mut row = |title: String, [one, two]: [Spread; 2]| {
+                    table.row(&[
+                        title,
+                        course.cage.name.to_owned(),
+                        one.to_string(),
+                        two.to_string(),
+                        format!("{:.2}", one.median / two.median),
+                        if same { "yes" } else { "no" }.to_owned(),
+                    ]);
+                };
                 let title = format!("{title}, derivatives to order {order}");
+                row(title.clone(), [answers[0].nanoseconds()?, answers[1].nanoseconds()?]);
+                if let Places::Faces = places {
+                    let prepared = [answers[0].nanoseconds_prepared()?, answers[1].nanoseconds_prepared()?];
+                    row(format!("{title}, without set-up"), prepared);
+                }
                 if !same {
                     faults.push(format!(
                         "{title}, {}: results depend on the number of threads",
                         course.cage.name
                     ));
                 }
-                table.row(&[
-                    title,
-                    course.cage.name.to_owned(),
-                    one.to_string(),
-                    two.to_string(),
-                    format!("{:.2}", one.median / two.median),
-                    if same { "yes" } else { "no" }.to_owned(),
-                ]);
             }
         }
     }

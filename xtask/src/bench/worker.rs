@@ -1,7 +1,10 @@
 //! `cargo xtask bench-worker`: our side of the comparison, with the tasks, arguments and answers of
 //! `bench/peers/opensubdiv_limit.cpp`. A process of its own for every measurement, as the peers have.
 
+use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::Path;
+use std::sync::Mutex;
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
@@ -9,12 +12,6 @@ use ogee::{ControlMesh, Derivatives, FaceId, Level, LimitSurface, Location, Patc
 use serde_json::{Value, json};
 
 use super::exchange::{self, Sample};
-
-/// Face by face, results go round in a buffer of this many points: a user takes them away as they come.
-const BLOCK: usize = 4096;
-
-/// The same where threads share the work: each gets its part of it.
-const SHARED_BLOCK: usize = 65_536;
 
 /// Does one task and answers with one line of JSON.
 ///
@@ -80,29 +77,30 @@ fn resident_bytes() -> Result<f64> {
     Ok(line.trim_end_matches("kB").trim().parse::<f64>()? * 1024.0)
 }
 
-/// All faces in order, `side` x `side` cell centres in each, preparation included.
+/// All faces, `side` x `side` cell centres in each, preparation included; results are taken away block by block.
 fn by_faces(mesh: &ControlMesh, what: Derivatives, side: u32) -> Result<Value> {
     let level = Level::new(mesh)?;
     let centre = |i: u32| (f64::from(i) + 0.5) / f64::from(side);
     let places: Vec<[f64; 2]> = (0..side * side).map(|k| [centre(k % side), centre(k / side)]).collect();
-    let block = if threads() == 1 { BLOCK } else { SHARED_BLOCK };
-    let faces = (block / places.len()).max(1);
-    let mut results = Samples::default();
-    let mut pass = |take: &mut dyn FnMut(&Samples)| -> Result<[f64; 2]> {
+    let pass = |take: &(dyn Fn(Range<usize>, &Samples) + Sync)| -> Result<[f64; 2]> {
         let start = Instant::now();
         let table = PatchTable::new(&level);
         let surface = LimitSurface::new(&table, &mesh.points);
         let pattern = table.pattern(&places, what)?;
         let prepared = start.elapsed();
-        for first in (0..table.len()).step_by(faces) {
-            surface.eval_pattern(&pattern, first..(first + faces).min(table.len()), &mut results)?;
-            take(&results);
-        }
+        surface.visit_pattern(&pattern, 0..table.len(), take)?;
         Ok([prepared.as_secs_f64(), start.elapsed().as_secs_f64()])
     };
+    // Blocks come in any order.
+    let blocks = Mutex::new(BTreeMap::new());
+    pass(&|faces, results| {
+        let mut checksum = Checksum::default();
+        checksum.add(results);
+        blocks.lock().expect("no block fails").insert(faces.start, checksum.0);
+    })?;
     let mut checksum = Checksum::default();
-    pass(&mut |results| checksum.add(results))?;
-    let seconds = pass(&mut |results| {
+    blocks.into_inner()?.into_values().for_each(|block| checksum.add_bits(block));
+    let seconds = pass(&|_, results| {
         std::hint::black_box(results);
     })?;
     Ok(report(mesh.faces.len() * (side * side) as usize, seconds, &checksum))
@@ -163,10 +161,6 @@ fn one_by_one(mesh: &ControlMesh, samples: &[Sample]) -> Result<Value> {
     Ok(report(samples.len(), [prepared, seconds], &checksum))
 }
 
-fn threads() -> usize {
-    rayon::current_num_threads()
-}
-
 fn report(points: usize, [prepared, seconds]: [f64; 2], checksum: &Checksum) -> Value {
     let checksum = checksum.0.to_string();
     json!({ "points": points, "seconds": seconds, "prepare_seconds": prepared, "checksum": checksum })
@@ -182,7 +176,6 @@ impl Default for Checksum {
 }
 
 impl Checksum {
-    /// Point by point, so that the sizes of blocks do not matter.
     fn add(&mut self, samples: &Samples) {
         let lists = [
             &samples.position,
@@ -200,7 +193,11 @@ impl Checksum {
 
     fn add_vector(&mut self, vector: Vec3) {
         for number in <[f64; 3]>::from(vector) {
-            self.0 = (self.0 ^ number.to_bits()).wrapping_mul(1_099_511_628_211);
+            self.add_bits(number.to_bits());
         }
+    }
+
+    fn add_bits(&mut self, bits: u64) {
+        self.0 = (self.0 ^ bits).wrapping_mul(1_099_511_628_211);
     }
 }

@@ -16,6 +16,11 @@ use crate::patch::{Node, Piece, Wide};
 /// Samples that one task works through.
 const CHUNK: usize = 4096;
 
+/// Faces that one task works through.
+pub(super) fn in_block(pattern: &Pattern<'_>) -> usize {
+    (CHUNK / pattern.len().max(1)).max(1)
+}
+
 /// All places of a pattern on all faces of a range, on all cores. What a face gives depends on no other.
 pub(super) fn run(batch: Batch<'_>, pattern: &Pattern<'_>, faces: Range<usize>, out: Out<'_>) {
     if faces.len() > 1 && faces.len() * pattern.len() > CHUNK {

@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::batch::{Batch, Worker};
 use super::out::Out;
 use super::{Derivatives, Flags, LimitJet, Pattern, Samples, SurfacePoint, faces};
-use crate::math::{Interpolate, SurfaceJet, Vec3};
+use crate::math::{Interpolate, SurfaceJet, Vec3, par};
 use crate::mesh::VertexId;
 use crate::patch::{Location, LocationError, PatchTable};
 
@@ -34,7 +34,7 @@ impl<'a> LimitSurface<'a> {
         } else {
             let mut points = Vec::with_capacity(cage.len() + local.len());
             points.extend_from_slice(cage);
-            points.extend(local.apply(cage));
+            local.apply_after(cage, &mut points);
             Cow::Owned(points)
         };
         LimitSurface { table, points }
@@ -142,14 +142,49 @@ impl<'a> LimitSurface<'a> {
         faces: Range<usize>,
         out: &mut Samples,
     ) -> Result<(), LocationError> {
-        assert!(std::ptr::eq(self.table, pattern.table()), "the pattern is of another table");
-        let count = self.table.len();
-        assert!(faces.start <= faces.end && faces.end <= count, "there are {count} parametric faces");
-        if let Some(hidden) = self.table.first_hidden(faces.clone()) {
-            return Err(LocationError::HiddenFace { face: self.table.parametric_face(hidden).face });
-        }
+        self.check(pattern, &faces)?;
         out.resize(faces.len() * pattern.len(), pattern.derivatives());
         faces::run(self.batch(pattern.derivatives()), pattern, faces, out.slices());
         Ok(())
+    }
+
+    /// [`LimitSurface::eval_pattern`] block by block: `take` gets some faces of the range and their samples, while these are in
+    /// the cache. It is called by all cores at the same time, in no order; together its calls get every face once.
+    ///
+    /// Memory does not grow with the number of samples. The quickest way through a whole surface.
+    ///
+    /// # Errors
+    /// As [`LimitSurface::eval_pattern`]; `take` is then not called.
+    ///
+    /// # Panics
+    /// If there are no such faces, or the pattern is of another table.
+    pub fn visit_pattern(
+        &self,
+        pattern: &Pattern<'_>,
+        faces: Range<usize>,
+        take: impl Fn(Range<usize>, &Samples) + Sync + Send,
+    ) -> Result<(), LocationError> {
+        self.check(pattern, &faces)?;
+        let batch = self.batch(pattern.derivatives());
+        let step = faces::in_block(pattern);
+        par::each_with(faces.len().div_ceil(step), Samples::default, |samples, block| {
+            let first = faces.start + block * step;
+            let some = first..(first + step).min(faces.end);
+            samples.resize(some.len() * pattern.len(), pattern.derivatives());
+            faces::run(batch, pattern, some.clone(), samples.slices());
+            take(some, samples);
+        });
+        Ok(())
+    }
+
+    /// Refuses faces that are no part of the surface.
+    fn check(&self, pattern: &Pattern<'_>, faces: &Range<usize>) -> Result<(), LocationError> {
+        assert!(std::ptr::eq(self.table, pattern.table()), "the pattern is of another table");
+        let count = self.table.len();
+        assert!(faces.start <= faces.end && faces.end <= count, "there are {count} parametric faces");
+        match self.table.first_hidden(faces.clone()) {
+            Some(hidden) => Err(LocationError::HiddenFace { face: self.table.parametric_face(hidden).face }),
+            None => Ok(()),
+        }
     }
 }

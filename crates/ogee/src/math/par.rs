@@ -51,6 +51,25 @@ pub(crate) fn each<T: Send>(tasks: Vec<T>, f: impl Fn(T) + Sync + Send) {
     tasks.into_iter().for_each(f);
 }
 
+/// `f(0), f(1), .. f(count - 1)`, each worth a task of its own, on all cores; tasks that a thread does one after the other
+/// share memory.
+pub(crate) fn each_with<M>(
+    count: usize,
+    memory: impl Fn() -> M + Sync + Send,
+    f: impl Fn(&mut M, usize) + Sync + Send,
+) {
+    #[cfg(feature = "rayon")]
+    {
+        use rayon::prelude::*;
+        (0..count).into_par_iter().for_each_init(memory, f);
+    }
+    #[cfg(not(feature = "rayon"))]
+    {
+        let mut memory = memory();
+        (0..count).for_each(|i| f(&mut memory, i));
+    }
+}
+
 /// Both, at the same time if there is a thread to spare.
 pub(crate) fn join(a: impl FnOnce() + Send, b: impl FnOnce() + Send) {
     #[cfg(feature = "rayon")]

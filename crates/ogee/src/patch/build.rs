@@ -217,7 +217,7 @@ impl Builder {
                 Found::Split => split.push(target),
             }
         }
-        self.table.local.extend(&points.rows(|vertex, share, row| match below {
+        self.table.local.extend(points.rows(|vertex, share, row| match below {
             None => row.add(VertexId(vertex), share),
             Some(below) => below.write(vertex, share, row),
         }));

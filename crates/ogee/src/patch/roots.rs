@@ -56,6 +56,7 @@ struct Wanted {
 struct Pieces {
     /// Corner and valence of a tail; a leaf has none.
     shapes: Vec<Option<[u32; 2]>>,
+    /// Vertices of the level, then their numbers.
     points: Vec<u32>,
     /// The targets of these shapes, and those that are not plain.
     settled: Vec<Target>,
@@ -171,7 +172,7 @@ impl Builder {
         let mut points = Points::new(ahead.vertex_count(), self.next_point());
         let targets = self.cut(mesh, split);
         let split = self.settle_plain(&ahead, &[], targets, &mut points);
-        self.table.local.extend(&points.rows(|vertex, _, row| rule::smooth_child(mesh, vertex, row)));
+        self.table.local.extend(points.rows(|vertex, _, row| rule::smooth_child(mesh, vertex, row)));
         if split.is_empty() {
             return;
         }
@@ -183,7 +184,7 @@ impl Builder {
         let rows = points.rows(|vertex, _, row| rule::smooth_child(&ahead, vertex, row));
         let (rows, used) = rows.over_used(ahead.vertex_count());
         let above = StencilTable::from_rows(used.len(), |i, row| rule::smooth_child(mesh, used[i], row));
-        self.table.local.extend(&above.then(&rows));
+        self.table.local.extend(above.then(&rows));
     }
 
     /// Writes the leaves and tails that are plain on a level of quads; gives the other targets.
@@ -194,31 +195,38 @@ impl Builder {
         targets: Vec<Target>,
         points: &mut Points,
     ) -> Vec<Target> {
-        let chunks = par::map(targets.len().div_ceil(CHUNK), |chunk| {
+        let marks = points.marks();
+        let mut chunks = par::map(targets.len().div_ceil(CHUNK), |chunk| {
             let mut pieces = Pieces::default();
             for &target in &targets[chunk * CHUNK..((chunk + 1) * CHUNK).min(targets.len())] {
                 pieces.look(mesh, tagged, target);
             }
+            pieces.points.iter().for_each(|&vertex| marks.mark(vertex));
             pieces
         });
+        points.number_marked(marks);
+        let points = &*points;
+        par::each(chunks.iter_mut().collect(), |pieces: &mut Pieces| {
+            pieces.points.iter_mut().for_each(|vertex| *vertex = points.of(*vertex));
+        });
         let mut other = Vec::new();
-        for Pieces { shapes, points: sources, settled, other: open } in chunks {
+        for Pieces { shapes, points, settled, other: open } in chunks {
             other.extend(open);
-            let mut sources = &sources[..];
+            let mut points = &points[..];
             for (shape, target) in shapes.into_iter().zip(settled) {
                 let Some([corner, valence]) = shape else {
-                    let (net, later) = sources.split_at(16);
-                    self.leaf(target.slot, std::array::from_fn(|i| points.vertex(net[i])));
-                    sources = later;
+                    let (net, later) = points.split_first_chunk().expect("a leaf has all its points");
+                    self.leaf(target.slot, *net);
+                    points = later;
                     continue;
                 };
                 let kind = Kind::Smooth { valence };
-                let (ring, later) = sources.split_at(kind.ring_count());
+                let (ring, later) = points.split_at(kind.ring_count());
                 let tail = Tail { first: self.ring_start(), kind: self.kind(kind), corner };
-                self.table.rings.extend(ring.iter().map(|&vertex| points.vertex(vertex)));
+                self.table.rings.extend_from_slice(ring);
                 let node = self.tail(tail);
                 self.place(target.slot, node);
-                sources = later;
+                points = later;
             }
         }
         other

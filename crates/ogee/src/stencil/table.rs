@@ -90,7 +90,11 @@ impl StencilTable {
     }
 
     /// Appends the rows of another table.
-    pub(crate) fn extend(&mut self, other: &StencilTable) {
+    pub(crate) fn extend(&mut self, other: StencilTable) {
+        if self.is_empty() {
+            *self = other;
+            return;
+        }
         let offset = self.sources.len();
         u32::try_from(offset + other.sources.len()).expect("fewer than 2^32 weights in a table");
         self.starts.extend(other.starts.iter().skip(1).map(|end| end + offset as u32));
@@ -138,13 +142,20 @@ impl StencilTable {
     /// # Panics
     /// If a source is missing.
     pub fn apply<T: Interpolate>(&self, sources: &[T]) -> Vec<T> {
-        par::collect(self.len(), |i| {
+        let mut out = Vec::with_capacity(self.len());
+        self.apply_after(sources, &mut out);
+        out
+    }
+
+    /// The same, written after what is there already.
+    pub(crate) fn apply_after<T: Interpolate>(&self, sources: &[T], out: &mut Vec<T>) {
+        par::extend(out, self.len(), |i| {
             let mut value = T::zero();
             for (source, weight) in self.row(i) {
                 value.add_scaled(weight, &sources[source as usize]);
             }
             value
-        })
+        });
     }
 
     /// The table that does what this one and then `next` do.
