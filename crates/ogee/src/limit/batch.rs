@@ -208,6 +208,12 @@ impl<'a> Worker<'a> {
     /// Samples of a face that is one chain: put into buckets by step and tile, as long as those are few.
     fn chain(&mut self, number: u32, tail: Tail, items: &mut [Item], out: &mut Out<'_>) {
         const BUCKETS: usize = 64;
+        if let [item] = items {
+            // Alone, as most are that are scattered.
+            let (key, u, v) = place::in_chain(tail.corner, item.u, item.v);
+            (item.u, item.v) = (u, v);
+            return self.piece(Patch::of_step(self.batch.table, tail, number, key, 0), items, out);
+        }
         let mut starts = [0u16; BUCKETS + 2];
         let mut largest = 0;
         self.keyed.clear();
