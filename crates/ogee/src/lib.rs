@@ -92,6 +92,7 @@
 mod catmull_clark;
 pub mod convert;
 mod crease;
+mod curve_network;
 mod limit;
 pub mod math;
 pub mod mesh;
@@ -111,8 +112,8 @@ pub use limit::{
 pub use math::{Curvature, Grid, Interpolate, SurfaceJet, Vec3};
 pub use mesh::{
     Boundary, ControlMesh, Corner, Crease, Creasing, Defect, EdgeId, FaceId, FaceList, FaceVarying,
-    FaceVaryingRule, HalfedgeId, Note, Place, Scheme, Sharpness, Statistics, Topology, TopologyError,
-    Valence, VertexId, shapes,
+    FaceVaryingRule, HalfedgeId, Meeting, Note, Place, Scheme, Sharpness, Statistics, Topology,
+    TopologyError, Valence, VertexId, shapes,
 };
 pub use patch::{Location, LocationError, ParametricFace, PatchStatistics, PatchTable};
 pub use refine::{FineMesh, Refinement, Step, TooDeep};

@@ -10,7 +10,7 @@ pub(crate) mod topology;
 
 pub use check::{Defect, Note, Place, TopologyError, check, notes};
 pub use control_mesh::{
-    Boundary, ControlMesh, Corner, Crease, Creasing, FaceList, FaceVarying, FaceVaryingRule, Scheme,
+    Boundary, ControlMesh, Corner, Crease, Creasing, FaceList, FaceVarying, FaceVaryingRule, Meeting, Scheme,
     Sharpness,
 };
 pub use ids::{EdgeId, FaceId, HalfedgeId, VertexId};
