@@ -10,7 +10,7 @@ use clap::Args;
 use ogee::Vec3;
 use ogee::quality::Surface;
 use ogee_render::{
-    Image, Light, MOST_PIXELS, Pattern, Picture, Quantity, Sampling, Scene, Style, outline, render,
+    Image, Light, MOST_PIXELS, Pattern, Picture, Quantity, Sampling, Scene, Style, comb, outline, render,
 };
 use serde::Serialize;
 
@@ -69,6 +69,9 @@ pub(crate) struct Render {
     #[command(flatten)]
     lights: LightArguments,
 }
+
+/// Of the diagonal: how long the hairs of combs are, where nine in ten are shorter.
+const HAIRS: f64 = 0.04;
 
 /// Styles by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -228,8 +231,8 @@ impl Render {
             let scene = Scene { style, ..scene };
             let second = self.draw(other, &scene)?.picture;
             let mut second = second.reduced(self.samples).image();
-            pixels.add_caption(&subject.name);
-            second.add_caption(&other.name);
+            pixels.add_caption(&subject.file_name());
+            second.add_caption(&other.file_name());
             pixels = pixels.beside(&second);
         }
         progress.step("writing");
@@ -275,7 +278,11 @@ impl Render {
         image: Option<Arc<Light>>,
     ) -> Result<Scene, Failure> {
         let bounds = subject.bounds(surface)?;
-        let camera = self.view.camera(&outline(surface))?;
+        let mut shown = outline(surface);
+        if self.style == Look::Combs {
+            shown.extend(comb::tips(surface, HAIRS));
+        }
+        let camera = self.view.camera(&shown)?;
         let size = self.view.size.map(|side| side * self.samples);
         Ok(Scene { camera, size, style: self.style(bounds, image), sampling: self.sampling.0 })
     }
@@ -365,7 +372,7 @@ impl Render {
                 };
                 Style::Error { light, level }
             }
-            Look::Combs => Style::Combs { share: 0.04 },
+            Look::Combs => Style::Combs { share: HAIRS },
         }
     }
 }
