@@ -31,6 +31,13 @@ enum Kind {
     Patches(Box<PatchView>),
 }
 
+/// The argument of a command that looks at parts as well as at cages.
+pub(crate) fn or_part(cage: clap::Arg) -> clap::Arg {
+    cage.value_name("CAGE|PART.json").help(
+        "A cage: OBJ with subdivision tags, OFF, PLY or JSON; or the patches of a part in JSON; - for stdin",
+    )
+}
+
 /// True if a text is a part in JSON and no cage.
 fn is_part(bytes: &[u8]) -> bool {
     #[derive(Deserialize)]
@@ -70,6 +77,17 @@ impl Subject {
         let name = cage.name.clone();
         let kind = Kind::Cage { cage: Box::new(cage), level: Box::new(level), table: Box::new(table) };
         Ok(Subject { name, kind, read_seconds, prepare_seconds })
+    }
+
+    /// Refuses rules of subdivision for a part, which has none.
+    pub(crate) fn check_rules(&self, arguments: &CageArguments) -> Result<(), Failure> {
+        if self.cage().is_none() && (arguments.boundary.is_some() || arguments.creasing.is_some()) {
+            let name = &self.name;
+            return Err(Failure::usage(format!(
+                "{name} has patches: --boundary and --creasing are for cages"
+            )));
+        }
+        Ok(())
     }
 
     /// The file's name without its folders.

@@ -74,7 +74,7 @@ pub enum RenderError {
     #[error("the eye is inside the surface; move it away")]
     EyeInside,
     /// All of it is beside the picture or behind the eye.
-    #[error("no part of the surface is in the picture; move the eye or what it looks at")]
+    #[error("no part of the surface covers a pixel of the picture; move the eye or what it looks at")]
     EmptyView,
     /// No pattern to be seen.
     #[error("no ray from the visible surface meets the light plane; move it to where rays go, or turn it")]
@@ -83,7 +83,7 @@ pub enum RenderError {
     #[error("a mesh of facets has no curvature; maps of it want exact points")]
     CurvatureOfPolygon,
     /// A mesh finer than memory is meant for.
-    #[error("a mesh of level {level} has more faces than {most}")]
+    #[error("a mesh of level {level} has more than {most} faces; ask for a lower level")]
     TooFine {
         /// The level.
         level: u32,

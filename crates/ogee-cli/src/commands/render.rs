@@ -19,7 +19,7 @@ use crate::cage::{CageArguments, read_bytes};
 use crate::error::{Failure, Finding};
 use crate::names::{Format, formats};
 use crate::report::{Console, Table, bytes};
-use crate::subject::Subject;
+use crate::subject::{Subject, or_part};
 use crate::view::{LightArguments, ViewArguments};
 
 const EXAMPLES: &str = "\
@@ -31,7 +31,7 @@ Examples:
 
 /// Draw the surface: shaded, mirrored lines, bands, curvature
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, mut_arg("cage", or_part))]
 pub(crate) struct Render {
     #[command(flatten)]
     cage: CageArguments,
@@ -210,6 +210,7 @@ impl Render {
         let progress = console.progress();
         progress.step("reading");
         let subject = Subject::read(&self.cage)?;
+        subject.check_rules(&self.cage)?;
         destination.check()?;
         let other = match &self.beside {
             Some(file) => Some(Subject::read(&self.cage.for_file(file))?),
