@@ -34,16 +34,18 @@ pub(crate) fn outline(
     Ok(paths)
 }
 
+/// A border or a sharp edge: one side of it, and the other.
+type Curve = (Side, Option<Side>);
+
 /// The borders and sharp edges of a surface in pixels, as far as lines there would be wanted.
 pub(crate) fn edges(surface: &dyn Surface, view: &View, options: &LineOptions<'_>) -> Vec<Path> {
     const STEPS: usize = 32;
     let layout = surface.layout();
     let sharp = layout.joints().iter().filter(|joint| joint.is_sharp);
-    // Each once, with the sides that meet there.
-    let curves: Vec<(Side, Option<Side>)> = (layout.border().map(|side| (side, None)))
+    let curves: Vec<Curve> = (layout.border().map(|side| (side, None)))
         .chain(sharp.map(|joint| (joint.sides[0], Some(joint.sides[1]))))
         .collect();
-    let samples = |place: &dyn Fn(&(Side, Option<Side>), f64) -> Location| {
+    let samples = |place: &dyn Fn(&Curve, f64) -> Location| {
         let along = |curve| (0..=STEPS).map(move |k| place(curve, k as f64 / STEPS as f64));
         let at: Vec<Location> = curves.iter().flat_map(along).collect();
         let mut samples = Samples::default();

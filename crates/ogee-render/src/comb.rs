@@ -8,9 +8,9 @@ use ogee::quality::{FLAT, Side, Square, Surface, bounding_box};
 use ogee::{Derivatives, Location, Samples, SurfaceJet, Vec3};
 use rayon::prelude::*;
 
-use crate::View;
 use crate::colour::{Colour, decode, mix};
 use crate::pattern::line;
+use crate::{DepthImage, View};
 
 /// Steps from hair to hair along a curve across a square.
 const MOST: usize = 24;
@@ -35,7 +35,7 @@ pub fn draw(surface: &dyn Surface, view: &View, share: f64, depths: &[f64], colo
     let curves = curves(surface);
     let Some(scale) = Scale::new(surface, &curves, share) else { return };
     let thick = view.line_width();
-    let sight = Sight { view, depths, slack: 4e-3 * scale.diagonal };
+    let sight = DepthImage::of_depths(view, depths.to_vec());
     let combs: Vec<Vec<Option<[Vec3; 2]>>> = curves
         .par_chunks(CHUNK)
         .flat_map_iter(|curves| {
@@ -125,8 +125,6 @@ fn curves(surface: &dyn Surface) -> Vec<Curve<'_>> {
 
 /// How long hairs are.
 struct Scale {
-    /// The size of the surface.
-    diagonal: f64,
     /// The bend than which 90 % are less.
     usual: f64,
     /// The length of a hair there.
@@ -145,7 +143,7 @@ impl Scale {
         let mut sizes: Vec<f64> = curves.par_chunks(CHUNK).flat_map_iter(of_chunk).collect();
         sizes.sort_unstable_by(f64::total_cmp);
         let usual = sizes.get(sizes.len() * 9 / 10).copied().unwrap_or_default();
-        (usual > FLAT / diagonal).then_some(Scale { diagonal, usual, length: share * diagonal })
+        (usual > FLAT / diagonal).then_some(Scale { usual, length: share * diagonal })
     }
 
     fn tip(&self, hair: &Hair) -> Vec3 {
@@ -216,28 +214,6 @@ fn hairs(surface: &dyn Surface, curves: impl Iterator<Item = Places>) -> Vec<Vec
         all.map(|i| hair(curve.along, i)).collect()
     };
     curves.iter().map(of_curve).collect()
-}
-
-/// What is in sight.
-struct Sight<'a> {
-    view: &'a View,
-    depths: &'a [f64],
-    /// What is this far behind the nearest point of its pixel still is.
-    slack: f64,
-}
-
-impl Sight<'_> {
-    fn shows(&self, point: Vec3) -> bool {
-        let q = self.view.to_camera(point);
-        let [x, y] = self.view.pixel(q);
-        let [width, height] = self.view.size;
-        let is_inside = (0.0..f64::from(width)).contains(&x) && (0.0..f64::from(height)).contains(&y);
-        if !is_inside || !self.view.is_parallel && q.z <= 0.0 {
-            return false;
-        }
-        let depth = self.depths[y as usize * width as usize + x as usize];
-        depth.is_finite() && q.z <= depth + self.slack
-    }
 }
 
 /// A picture that lines are drawn into.
