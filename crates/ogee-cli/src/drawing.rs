@@ -1,7 +1,7 @@
 //! Curves on a surface as curves in a picture.
 
 use ogee::quality::{Field, LevelLine, Levels, LineOptions, LinesError, Side, Surface, Viewer, level_lines};
-use ogee::{Derivatives, Samples, Vec3};
+use ogee::{Derivatives, Location, Samples, Vec3};
 use ogee_formats::lines::Path;
 use ogee_render::View;
 
@@ -34,30 +34,39 @@ pub(crate) fn outline(
     Ok(paths)
 }
 
+/// A border or a sharp edge: one side of it, and the other.
+type Curve = (Side, Option<Side>);
+
 /// The borders and sharp edges of a surface in pixels, as far as lines there would be wanted.
 pub(crate) fn edges(surface: &dyn Surface, view: &View, options: &LineOptions<'_>) -> Vec<Path> {
     const STEPS: usize = 32;
     let layout = surface.layout();
-    let sharp = layout.joints().iter().filter(|joint| joint.is_sharp).flat_map(|joint| joint.sides);
-    let sides: Vec<Side> = layout.border().chain(sharp).collect();
-    let at: Vec<_> = sides
-        .iter()
-        .flat_map(|side| {
-            let square = layout.squares()[side.square as usize];
-            (0..=STEPS).map(move |k| square.on_side(side.side, k as f64 / STEPS as f64))
-        })
+    let sharp = layout.joints().iter().filter(|joint| joint.is_sharp);
+    let curves: Vec<Curve> = (layout.border().map(|side| (side, None)))
+        .chain(sharp.map(|joint| (joint.sides[0], Some(joint.sides[1]))))
         .collect();
-    let mut samples = Samples::default();
-    surface.evaluate(&at, Derivatives::First, &mut samples);
+    let samples = |place: &dyn Fn(&Curve, f64) -> Location| {
+        let along = |curve| (0..=STEPS).map(move |k| place(curve, k as f64 / STEPS as f64));
+        let at: Vec<Location> = curves.iter().flat_map(along).collect();
+        let mut samples = Samples::default();
+        surface.evaluate(&at, Derivatives::First, &mut samples);
+        samples
+    };
+    let on_side = |Side { square, side }: Side, x| layout.squares()[square as usize].on_side(side, x);
+    let here = samples(&|&(side, _), x| on_side(side, x));
+    let beside = samples(&|&(side, other), x| other.map_or(on_side(side, x), |side| on_side(side, 1.0 - x)));
     let is_seen = |k: usize| {
-        let position = samples.position[k];
-        let faces = |viewer: Viewer| samples.normal[k].dot(viewer.direction(position).0) < 0.0;
+        let position = here.position[k];
+        let faces = |viewer: Viewer| {
+            let (direction, _) = viewer.direction(position);
+            [here.normal[k], beside.normal[k]].iter().any(|normal| normal.dot(direction) < 0.0)
+        };
         options.front.is_none_or(faces) && options.visible.is_none_or(|visible| visible(position))
     };
-    (0..sides.len())
-        .flat_map(|side| {
-            let all = side * (STEPS + 1)..(side + 1) * (STEPS + 1);
-            paths(all.map(|k| is_seen(k).then(|| samples.position[k])), false, None, view)
+    (0..curves.len())
+        .flat_map(|curve| {
+            let all = curve * (STEPS + 1)..(curve + 1) * (STEPS + 1);
+            paths(all.map(|k| is_seen(k).then(|| here.position[k])), false, None, view)
         })
         .collect()
 }

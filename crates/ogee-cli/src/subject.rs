@@ -1,5 +1,8 @@
 //! What a command looks at: the limit surface of a cage, or the patches of a part.
 
+use std::borrow::Cow;
+use std::ops::RangeInclusive;
+use std::path::Path;
 use std::time::Instant;
 
 use ogee::quality::{LimitView, PatchView, Surface, bounding_box};
@@ -10,6 +13,7 @@ use serde::de::IgnoredAny;
 
 use crate::cage::{Cage, CageArguments};
 use crate::error::{Failure, Finding};
+use crate::report::figure;
 
 /// A surface to look at, and the file it came from.
 pub(crate) struct Subject {
@@ -25,6 +29,13 @@ pub(crate) struct Subject {
 enum Kind {
     Cage { cage: Box<Cage>, level: Box<Level>, table: Box<PatchTable> },
     Patches(Box<PatchView>),
+}
+
+/// The argument of a command that looks at parts as well as at cages.
+pub(crate) fn or_part(cage: clap::Arg) -> clap::Arg {
+    cage.value_name("CAGE|PART.json").help(
+        "A cage: OBJ with subdivision tags, OFF, PLY or JSON; or the patches of a part in JSON; - for stdin",
+    )
 }
 
 /// True if a text is a part in JSON and no cage.
@@ -66,6 +77,22 @@ impl Subject {
         let name = cage.name.clone();
         let kind = Kind::Cage { cage: Box::new(cage), level: Box::new(level), table: Box::new(table) };
         Ok(Subject { name, kind, read_seconds, prepare_seconds })
+    }
+
+    /// Refuses rules of subdivision for a part, which has none.
+    pub(crate) fn check_rules(&self, arguments: &CageArguments) -> Result<(), Failure> {
+        if self.cage().is_none() && (arguments.boundary.is_some() || arguments.creasing.is_some()) {
+            let name = &self.name;
+            return Err(Failure::usage(format!(
+                "{name} has patches: --boundary and --creasing are for cages"
+            )));
+        }
+        Ok(())
+    }
+
+    /// The file's name without its folders.
+    pub(crate) fn file_name(&self) -> Cow<'_, str> {
+        Path::new(&self.name).file_name().map_or(Cow::Borrowed(&*self.name), |name| name.to_string_lossy())
     }
 
     /// The cage, if it is one.
@@ -121,10 +148,21 @@ impl Subject {
         Failure::refused(vec![Finding::in_file(code, message, &self.name)], 0)
     }
 
-    /// The box around the surface; a failure if it is not finite.
+    /// The box around the surface; a failure if it is none to compute with.
     pub(crate) fn bounds(&self, surface: &dyn Surface) -> Result<[Vec3; 2], Failure> {
+        /// Longest sides whose fourth powers neither overflow nor vanish.
+        const SIZES: RangeInclusive<f64> = 1e-60..=1e60;
         let bounds = bounding_box(surface).filter(|bounds| bounds[0] != bounds[1]);
-        bounds
-            .ok_or_else(|| self.failure("no_size", "the surface has no size, or points that are not finite"))
+        let [lower, upper] = bounds.ok_or_else(|| {
+            self.failure("no_size", "the surface has no size, or points that are not finite")
+        })?;
+        let sides = upper - lower;
+        let longest = sides.x.max(sides.y).max(sides.z);
+        if !SIZES.contains(&longest) {
+            let (found, least, most) = (figure(longest), SIZES.start(), SIZES.end());
+            let message = format!("the surface is {found} long; scale it to between {least:e} and {most:e}");
+            return Err(self.failure("size_out_of_range", message));
+        }
+        Ok([lower, upper])
     }
 }

@@ -195,6 +195,7 @@ fn senseless_questions_get_clear_answers() {
     let folder = Folder::with_cube();
     folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
     folder.write("point.obj", CUBE.replace("-1", "1"));
+    folder.ogee("convert cube.obj -o part.json").expect(0);
     for (arguments, code, words) in [
         ("cube.obj -o out.png", 2, "unknown format png"),
         ("cube.obj --style zebra -o out.svg", 2, "known are reflection, highlight, isophote"),
@@ -207,7 +208,17 @@ fn senseless_questions_get_clear_answers() {
         ("cube.obj --visible --hidden -o out.svg", 2, "cannot be used with"),
         ("cube.obj --lines 1e12 -o out.svg", 3, "too many lines"),
         ("flat.obj --light-plane -5 -o out.svg", 3, "no ray from the surface meets the light plane"),
-        ("flat.obj --style isophote -o out.svg", 3, "no line meets the surface"),
+        (
+            "flat.obj --style highlight --light-plane -5 -o out.svg",
+            3,
+            "no normal of the surface meets the light",
+        ),
+        (
+            "flat.obj --style isophote -o out.svg",
+            3,
+            "turned from the light by 0 to 0 degrees: its faces are flat",
+        ),
+        ("part.json --boundary none -o out.svg", 2, "has patches"),
         (
             "flat.obj --style highlight --front --eye 0.5,0.4,-9 -o out.obj",
             3,
@@ -222,4 +233,34 @@ fn senseless_questions_get_clear_answers() {
     }
     let run = folder.ogee("lines flat.obj --light-plane -5 -o out.svg --json").expect(3);
     assert_eq!(run.json()["error"]["code"], "no_lines");
+}
+
+#[test]
+fn edges_of_a_drawing_are_drawn_once() {
+    let folder = Folder::new();
+    let crease = "t crease 2/1/0 0 1 10\n";
+    folder.write("cage.obj", format!("{CUBE}{crease}"));
+    folder.ogee("lines cage.obj --hidden --style isophote -o out.svg").expect(0);
+    let drawing = text(&folder, "out.svg");
+    let (_, edges) = drawing.split_once("<g id=\"edges\"").unwrap();
+    let (edges, _) = edges.split_once("</g>").unwrap();
+    let edges = edges.lines().filter_map(|path| path.strip_prefix("<path d=\"M")?.strip_suffix("\"/>"));
+    let ends: Vec<[&str; 2]> =
+        edges.map(|path| [path.split('L').next().unwrap(), path.rsplit('L').next().unwrap()]).collect();
+    for (k, [start, end]) in ends.iter().enumerate() {
+        assert!(!ends[k + 1..].contains(&[end, start]), "{ends:?}");
+    }
+    assert!(!ends.is_empty());
+}
+
+/// Where a wall is upright up to rounding, the isophote of ninety degrees goes round it and leaves it alone.
+#[test]
+fn walls_have_no_specks() {
+    let folder = Folder::new();
+    let mug = models().into_iter().find(|path| path.ends_with("mug.obj")).unwrap();
+    folder.ogee(&format!("lines {} --style isophote --step 90 -o out.json", mug.display())).expect(0);
+    let file: Value = serde_json::from_slice(&folder.read("out.json")).unwrap();
+    let lines = file["lines"].as_array().unwrap();
+    let shortest = lines.iter().map(|line| number(&line["length"])).fold(f64::INFINITY, f64::min);
+    assert!(shortest > 40.0, "a line of {shortest} mm on a mug");
 }

@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::Folder;
+use common::{CUBE, Folder};
 
 /// Width and height of a PNG.
 fn size(png: &[u8]) -> [u32; 2] {
@@ -96,6 +96,10 @@ fn light_can_be_a_picture() {
 #[test]
 fn what_makes_no_sense_is_refused_and_nothing_is_written() {
     let folder = Folder::with_cube();
+    for (name, unit) in [("tiny.obj", "1e-150"), ("huge.obj", "1e150")] {
+        let (points, faces) = CUBE.split_at(CUBE.find('f').unwrap());
+        folder.write(name, points.replace('1', unit) + faces);
+    }
     let before = folder.names();
     for (arguments, code, says) in [
         ("render cube.obj -o a.jpg", 2, "png"),
@@ -109,6 +113,10 @@ fn what_makes_no_sense_is_refused_and_nothing_is_written() {
         ("render cube.obj -o a.png --eye 0,9,0 --at 0,18,0", 3, "no part of the surface"),
         ("render cube.obj -o a.png --style mean --sampling polygon:2", 3, "curvature"),
         ("render cube.obj -o a.png --style reflection --light-plane 5,1e-9", 3, "light plane"),
+        ("render tiny.obj -o a.png", 3, "1.68e-150 long; scale it to between 1e-60 and 1e60"),
+        ("render huge.obj -o a.png", 3, "long; scale it"),
+        ("lines tiny.obj -o a.svg", 3, "scale it"),
+        ("inspect huge.obj --html a.html", 3, "scale it"),
         ("render missing.obj -o a.png", 3, "missing.obj"),
         ("render cube.obj -o missing/a.png", 4, "missing"),
     ] {

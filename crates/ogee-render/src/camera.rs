@@ -45,6 +45,12 @@ fn corners([lower, upper]: [Vec3; 2]) -> [Vec3; 8] {
     })
 }
 
+/// The box around some points; the origin if there are none.
+pub(crate) fn extent(points: &[Vec3]) -> [Vec3; 2] {
+    let first = points.first().copied().unwrap_or_default();
+    points.iter().fold([first; 2], |[lower, upper], &point| [lower.min(point), upper.max(point)])
+}
+
 impl Camera {
     /// A three-quarter view from the front, the right and above, with `z` up, in which a box fits into a picture of
     /// `size` pixels.
@@ -56,9 +62,7 @@ impl Camera {
     pub fn fit_from(direction: Vec3, points: &[Vec3], angle: f64, size: [u32; 2]) -> Camera {
         /// Of the picture is left free on each side.
         const MARGIN: f64 = 0.04;
-        let first = points.first().copied().unwrap_or_default();
-        let (lower, upper) =
-            points.iter().fold((first, first), |(lower, upper), &p| (lower.min(p), upper.max(p)));
+        let [lower, upper] = extent(points);
         let middle = 0.5 * (lower + upper);
         let direction = direction.normalized().unwrap_or(Vec3::new(0.0, -1.0, 0.0));
         let up = if direction.x.hypot(direction.y) > 1e-6 {
@@ -82,8 +86,9 @@ impl Camera {
         };
         let ((across, wide), (along, high)) = (reach(right, tangent * aspect), reach(upward, tangent));
         let at = middle + across * right + along * upward;
-        // A little more than nothing, for a single point.
-        let distance = wide.max(high).max(1e-9 * (1.0 + middle.length()));
+        // A point has no size to stand back by: as much as rounding lets the eye be told from it.
+        let distance = wide.max(high).max(16.0 * f64::EPSILON * middle.length());
+        let distance = if distance > 0.0 { distance } else { 1.0 };
         Camera { eye: at + distance * direction, at, up, projection: Projection::Perspective { angle } }
     }
 
@@ -191,6 +196,21 @@ mod tests {
             };
             assert!(free(0) > 0.039 && free(1) > 0.039);
             assert!(free(0).min(free(1)) < 0.041, "{} {}", free(0), free(1));
+        }
+    }
+
+    #[test]
+    fn the_unit_of_length_does_not_matter() {
+        let [lower, upper] = [Vec3::new(-1.0, 2.0, 0.5), Vec3::new(3.0, 2.5, 4.0)];
+        let usual = Camera::fit([lower, upper], [300, 200]);
+        for unit in [1e-60, 1e-12, 1e12, 1e60] {
+            let Camera { eye, at, .. } = Camera::fit([unit * lower, unit * upper], [300, 200]);
+            for (point, expected) in [(eye, usual.eye), (at, usual.at)] {
+                assert!((point / unit).distance(expected) < 1e-12, "{unit:e}: {point:?}");
+            }
+        }
+        for point in [Vec3::ZERO, Vec3::new(1e9, 0.0, 0.0)] {
+            assert!(Camera::fit([point; 2], [300, 200]).view([300, 200]).is_some(), "{point:?}");
         }
     }
 

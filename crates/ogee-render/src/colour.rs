@@ -60,6 +60,12 @@ pub fn encode(x: f32) -> f32 {
     if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 }
 }
 
+/// A colour as screens and files want it.
+#[inline]
+pub fn bytes(colour: Colour) -> [u8; 3] {
+    colour.map(|x| (255.0 * encode(x) + 0.5) as u8)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

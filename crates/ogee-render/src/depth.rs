@@ -26,6 +26,11 @@ impl DepthImage {
         for fragment in fragments(&Polygon::for_view(surface, view), view) {
             depths[fragment.pixel as usize] = fragment.depth;
         }
+        DepthImage::of_depths(view, depths)
+    }
+
+    /// The same from the depth that each pixel of a picture has; infinite where nothing is.
+    pub(crate) fn of_depths(view: &View, depths: Vec<f64>) -> DepthImage {
         DepthImage { view: *view, depths }
     }
 

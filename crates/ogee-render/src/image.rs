@@ -18,7 +18,7 @@ pub struct Image {
 #[non_exhaustive]
 pub enum ImageError {
     /// It is no PNG, or a broken one.
-    #[error("{0}")]
+    #[error("this is no PNG that can be read: {0}")]
     Decoding(#[from] png::DecodingError),
     /// It has more pixels than memory is meant for.
     #[error("{width} x {height} pixels are too many; {most} are the most")]

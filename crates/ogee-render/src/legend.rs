@@ -6,11 +6,15 @@ use embedded_graphics::pixelcolor::Rgb888;
 use embedded_graphics::prelude::*;
 use embedded_graphics::text::{Alignment, Text};
 
-use crate::colour::{DIVERGING, RISING, along, encode};
+use crate::colour::{DIVERGING, RISING, along, bytes};
+use crate::shade::palette;
 use crate::{Image, Quantity, Style};
 
 /// The colour of letters.
 const INK: Rgb888 = Rgb888::new(40, 46, 54);
+
+/// How little of a picture is left behind letters, of 256.
+const VEIL: u32 = 56;
 
 /// A picture as the library of letters sees it.
 struct Paper<'a>(&'a mut Image);
@@ -76,8 +80,28 @@ impl Image {
         let letter = font.character_size;
         let most = (self.size[0] / letter.width).saturating_sub(4) as usize;
         let caption: String = caption.chars().take(most).collect();
-        let at = Point::new(2 * letter.height as i32, 2 * letter.height as i32 + letter.height as i32 / 2);
+        let height = letter.height as i32;
+        let width = caption.chars().count() as i32 * letter.width as i32;
+        let at = Point::new(2 * height, 2 * height + height / 2);
+        self.veil([at.x - height / 2, at.y - height], [at.x + width + height / 2, at.y + height / 2]);
         let Ok(_) = Text::new(&caption, at, MonoTextStyle::new(font, INK)).draw(&mut Paper(self));
+    }
+
+    /// Fades the pixels between two corners into the background, so that letters on them can be read.
+    fn veil(&mut self, from: [i32; 2], to: [i32; 2]) {
+        let clipped = |at: [i32; 2]| [0, 1].map(|axis| at[axis].clamp(0, self.size[axis] as i32) as usize);
+        let ([left, top], [right, bottom]) = (clipped(from), clipped(to));
+        let paper = bytes(palette::BACKGROUND);
+        let width = self.size[0] as usize;
+        for row in top..bottom {
+            for pixel in self.pixels[4 * (row * width + left)..4 * (row * width + right)].chunks_exact_mut(4)
+            {
+                for (value, paper) in pixel.iter_mut().zip(paper) {
+                    let mixed = VEIL * u32::from(*value) + (256 - VEIL) * u32::from(paper);
+                    *value = ((mixed + 128) / 256) as u8;
+                }
+            }
+        }
     }
 
     /// Small pictures get small letters, smaller ones none.
@@ -106,15 +130,17 @@ impl Image {
         let margin = 2 * letter;
         let (left, top) = (margin, height - margin - bar[1] - letter);
         let ink = MonoTextStyle::new(font, INK);
+        let space = letter / 2;
+        let from = [left - space, top - letter - 3 * space / 2];
+        self.veil(from, [left + bar[0] + space, top + bar[1] + letter + space]);
         let mut paper = Paper(self);
         let text = |paper: &mut Paper<'_>, text: &str, x: i32, y: i32, alignment: Alignment| {
             let Ok(_) = Text::with_alignment(text, Point::new(x, y), ink, alignment).draw(paper);
         };
         text(&mut paper, title, left, top - letter / 2, Alignment::Left);
         for x in 0..bar[0] {
-            let colour =
-                along(scale, x as f32 / (bar[0] - 1) as f32).map(|x| (255.0 * encode(x) + 0.5) as u8);
-            let colour = Rgb888::new(colour[0], colour[1], colour[2]);
+            let [red, green, blue] = bytes(along(scale, x as f32 / (bar[0] - 1) as f32));
+            let colour = Rgb888::new(red, green, blue);
             let Ok(()) = paper.draw_iter((0..bar[1]).map(|y| Pixel(Point::new(left + x, top + y), colour)));
         }
         for (place, mark) in marks {
@@ -166,6 +192,18 @@ mod tests {
         assert_eq!(shaded, blank);
         shaded.add_caption("a body");
         assert_ne!(shaded, blank);
+    }
+
+    #[test]
+    fn letters_stand_out_from_whatever_is_behind_them() {
+        let mut dark = Image::filled([320, 320], [0, 0, 0, 255]);
+        dark.add_caption("a body");
+        dark.add_legend(&Style::Curvature { quantity: Quantity::Mean, limit: None }, 0.25);
+        // Beside the first letter, and beside the last number.
+        for [x, y] in [[22, 30], [238, 298]] {
+            assert!(dark.pixel(x, y)[..3].iter().all(|&value| value > 150), "{:?}", dark.pixel(x, y));
+        }
+        assert_eq!(dark.pixel(160, 160), [0, 0, 0, 255]);
     }
 
     #[test]

@@ -2,12 +2,12 @@
 
 use std::time::Instant;
 
-use ogee::quality::{Layout, Ray, Surface};
+use ogee::quality::{FLAT, Layout, Ray, Surface};
 use ogee::{Derivatives, Flags, Location, Samples, SurfaceJet, Vec3};
 use rayon::prelude::*;
 
-use crate::camera::{ANGLE, THREE_QUARTER};
-use crate::colour::{Colour, encode, scaled};
+use crate::camera::{ANGLE, THREE_QUARTER, extent};
+use crate::colour::{self, Colour, scaled};
 use crate::comb;
 use crate::polygon::Polygon;
 use crate::raster::{Fragment, fragments};
@@ -74,7 +74,7 @@ pub enum RenderError {
     #[error("the eye is inside the surface; move it away")]
     EyeInside,
     /// All of it is beside the picture or behind the eye.
-    #[error("no part of the surface is in the picture; move the eye or what it looks at")]
+    #[error("no part of the surface covers a pixel of the picture; move the eye or what it looks at")]
     EmptyView,
     /// No pattern to be seen.
     #[error("no ray from the visible surface meets the light plane; move it to where rays go, or turn it")]
@@ -83,7 +83,7 @@ pub enum RenderError {
     #[error("a mesh of facets has no curvature; maps of it want exact points")]
     CurvatureOfPolygon,
     /// A mesh finer than memory is meant for.
-    #[error("a mesh of level {level} has more faces than {most}")]
+    #[error("a mesh of level {level} has more than {most} faces; ask for a lower level")]
     TooFine {
         /// The level.
         level: u32,
@@ -149,7 +149,7 @@ pub fn render(surface: &dyn Surface, scene: &Scene) -> Result<Picture, RenderErr
     let painter = Painter { surface, scene, view, polygon: &polygon };
     let looked: Vec<Looked> = shown.par_chunks(CHUNK).map(|chunk| painter.look(chunk)).collect();
     let values = looked.iter().flat_map(|looked| &looked.looks).filter_map(Look::value);
-    picture.limit = limit(&scene.style, values);
+    picture.limit = limit(&scene.style, values).map(|limit| limit.max(least_limit(&scene.style, &polygon)));
     let is_missed = looked.iter().all(|looked| looked.hits == 0);
     if is_missed
         && matches!(scene.style, Style::Reflection { .. } | Style::Highlight { .. } | Style::Error { .. })
@@ -206,8 +206,7 @@ fn is_inside(surface: &dyn Surface, eye: Vec3) -> bool {
     }
     let all: Vec<u32> = (0..layout.squares().len() as u32).collect();
     let mesh = Polygon::new(surface, &all, 1, false);
-    let (lower, upper) =
-        mesh.points.iter().fold((eye, eye), |(lower, upper), &p| (lower.min(p), upper.max(p)));
+    let [lower, upper] = extent(&mesh.points);
     let within = |low: f64, x: f64, high: f64| low < x && x < high;
     if !(within(lower.x, eye.x, upper.x)
         && within(lower.y, eye.y, upper.y)
@@ -488,6 +487,17 @@ pub fn limit(style: &Style, values: impl Iterator<Item = f64>) -> Option<f64> {
     }
 }
 
+/// Where the colours of a map end at least, unless that was asked for: less is the curvature of a plane, and rounding.
+fn least_limit(style: &Style, polygon: &Polygon) -> f64 {
+    let Style::Curvature { quantity, limit: None } = style else { return 0.0 };
+    let [lower, upper] = extent(&polygon.points);
+    let flat = FLAT / upper.distance(lower);
+    match quantity {
+        Quantity::Gauss | Quantity::GaussSign => flat * flat,
+        Quantity::Mean | Quantity::K1 | Quantity::K2 | Quantity::Greatest => flat,
+    }
+}
+
 impl Picture {
     /// As many pixels in one, along both sides; linear light is averaged. Pixels that are left over are dropped.
     #[must_use]
@@ -510,11 +520,11 @@ impl Picture {
 
     /// As screens and files want it.
     pub fn image(&self) -> Image {
-        let bytes = |colour: &Colour| {
-            let [red, green, blue] = colour.map(|x| (255.0 * encode(x) + 0.5) as u8);
+        let pixel = |colour: &Colour| {
+            let [red, green, blue] = colour::bytes(*colour);
             [red, green, blue, 255]
         };
-        Image { size: self.size, pixels: self.colours.par_iter().flat_map_iter(bytes).collect() }
+        Image { size: self.size, pixels: self.colours.par_iter().flat_map_iter(pixel).collect() }
     }
 }
 

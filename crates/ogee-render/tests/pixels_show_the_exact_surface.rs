@@ -187,3 +187,56 @@ fn surfaces_around_the_eye_are_cut() {
         assert_eq!(camera.view([120, 90]).unwrap().viewer(), Viewer::Eye(camera.eye));
     });
 }
+
+/// A plane that is flat to rounding is flat: its map has one colour.
+#[test]
+fn maps_of_planes_have_one_colour() {
+    let mut mesh = shapes::grid(5, 4);
+    for p in &mut mesh.points {
+        *p = Vec3::new(0.6 * p.x - 0.64 * p.y + 0.1, 0.8 * p.x + 0.48 * p.y, 0.6 * p.y + 1e3);
+    }
+    let size = with_view(&mesh, |view| bounding_box(view).map_or(0.0, |[a, b]| a.distance(b)));
+    for (quantity, flat) in [
+        (Quantity::Mean, 1e-6 / size),
+        (Quantity::Greatest, 1e-6 / size),
+        (Quantity::Gauss, 1e-12 / size.powi(2)),
+        (Quantity::GaussSign, 1e-12 / size.powi(2)),
+    ] {
+        let style = Style::Curvature { quantity, limit: None };
+        let picture =
+            with_view(&mesh, |view| render(view, &Scene { style, ..Scene::of(view, [60, 50]) }).unwrap());
+        let limit = picture.limit.unwrap();
+        assert!((limit / flat - 1.0).abs() < 0.1, "{quantity:?}: {limit:e}");
+        let shown: Vec<_> =
+            picture.colours.iter().filter(|c| **c != ogee_render::shade::palette::BACKGROUND).collect();
+        let first = shown[0];
+        let far = shown.iter().filter(|colour| (0..3).any(|k| (colour[k] - first[k]).abs() > 0.03)).count();
+        assert!(shown.len() > 500 && far == 0, "{quantity:?}: {far} of {}", shown.len());
+    }
+}
+
+/// Combs stand on what is seen, and none where nothing bends.
+#[test]
+fn combs_stand_where_the_surface_bends_and_is_seen() {
+    let size = [120, 100];
+    let draw = |mesh: &ControlMesh, style: Style| {
+        with_view(mesh, |view| render(view, &Scene { style, ..Scene::of(view, size) }).unwrap())
+    };
+    let flat = shapes::grid(3, 3);
+    let combs = || Style::Combs { share: 0.05 };
+    assert_eq!(draw(&flat, combs()).colours, draw(&flat, Style::Shaded).colours);
+    let ball = shapes::cube();
+    let (plain, combed) = (draw(&ball, Style::Shaded), draw(&ball, combs()));
+    let is_behind = |colour: &[f32; 3]| *colour == ogee_render::shade::palette::BACKGROUND;
+    let around = |picture: &Picture| picture.colours.iter().filter(|c| is_behind(c)).count();
+    assert!(around(&combed) + 100 < around(&plain), "hairs stand out");
+    with_view(&ball, |view| {
+        let [lower, upper] = bounding_box(view).unwrap();
+        let tips = ogee_render::comb::tips(view, 0.05);
+        let farthest = tips.iter().map(|tip| tip.length()).fold(0.0, f64::max);
+        let radius = 0.5 * (upper.x - lower.x);
+        let hair = farthest - radius;
+        let usual = 0.05 * upper.distance(lower);
+        assert!((0.2 * usual..2.0 * usual).contains(&hair), "{hair} beside {usual}");
+    });
+}

@@ -231,7 +231,7 @@ fn moved(mesh: &ControlMesh, scale: f64) -> (ControlMesh, Field) {
 fn turning_and_scaling_change_nothing_but_lengths() {
     let mesh = creased(cages::body(), &[[0, 1]], 10.0);
     let here = report(&mesh, light(&mesh));
-    for scale in [1e-6, 1.0, 1e6] {
+    for scale in [1e-60, 1e-6, 1.0, 1e6, 1e60] {
         let (mesh, field) = moved(&mesh, scale);
         let there = report(&mesh, field);
         let near = |a: f64, b: f64, what: &str| {
@@ -294,6 +294,10 @@ fn the_area_of_a_flat_sheet_and_of_a_ball() {
     assert!((found.curvature.area - 6.0).abs() < 0.5 && !found.is_closed());
     assert_eq!((found.continuity.border, found.curvature.convex.is_none()), (10, true));
     assert!(found.curvature.mean.greatest.abs() < 1e-12);
+    // Turned, it is flat to rounding only, which is no bend either.
+    let (turned, field) = moved(&sheet, 1.0);
+    let found = report(&turned, field).curvature;
+    assert!(found.mean.greatest != found.mean.least && found.convex.is_none() && found.concave.is_none());
     // Area and its shares, against a grid of samples fine enough.
     let mesh = cages::body();
     let found = report(&mesh, light(&mesh)).curvature;

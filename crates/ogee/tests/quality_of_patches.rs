@@ -8,7 +8,7 @@ use cages::creased;
 use ogee::convert::{Method, Options, Packing, Part, to_part};
 use ogee::nurbs::{FaceAddress, KnotVector, NurbsSurface};
 use ogee::quality::{
-    Cause, Field, JointPlace, PatchView, PlaneLight, Ray, Report, ReportOptions, SectorKind, Viewer,
+    Cause, Field, JointPlace, PatchView, PlaneLight, Ray, Report, ReportOptions, SectorKind, Surface, Viewer,
 };
 use ogee::{FaceId, Grid, Vec3, shapes};
 
@@ -171,4 +171,14 @@ fn a_torn_point_is_named() {
         "{named:?}"
     );
     assert!(found.continuity.smooth.angle.max > 1.0);
+}
+
+#[test]
+fn patches_far_from_the_origin_for_their_size_are_laid_side_by_side() {
+    let mut patches = pair(&[[0.0, 0.0], [4.0, 0.0]]);
+    for (surface, _) in &mut patches {
+        let net = &surface.net;
+        surface.net = Grid::from_fn(net.rows(), net.cols(), |i, j| net[(i, j)] + Vec3::new(4e14, 0.0, 0.0));
+    }
+    assert_eq!(PatchView::new(patches).unwrap().layout().joints().len(), 1);
 }

@@ -15,7 +15,7 @@ use crate::error::{Exit, Failure, Finding};
 use crate::inspection::{Figures, PICTURE, PageOf, table};
 use crate::output::Destination;
 use crate::report::{Console, bytes, count, figure};
-use crate::subject::Subject;
+use crate::subject::{Subject, or_part};
 use crate::system;
 
 const EXAMPLES: &str = "\
@@ -27,7 +27,7 @@ Examples:
 
 /// Measure the quality of a limit surface or of patches: gaps, angles, curvature, kinks of reflection lines
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, mut_arg("cage", or_part))]
 pub(crate) struct Inspect {
     #[command(flatten)]
     cage: CageArguments,
@@ -93,6 +93,7 @@ impl Inspect {
         let progress = console.progress();
         progress.step("reading");
         let subject = Subject::read(&self.cage)?;
+        subject.check_rules(&self.cage)?;
         let crease_angle = self.crease_angle(&subject)?;
         if let Some(html) = &html {
             html.check()?;
@@ -160,12 +161,6 @@ impl Inspect {
 
     /// From which angle on joints count as creases, where that is not for the cage to say.
     fn crease_angle(&self, subject: &Subject) -> Result<Option<f64>, Failure> {
-        if subject.cage().is_none() && (self.cage.boundary.is_some() || self.cage.creasing.is_some()) {
-            let name = &subject.name;
-            return Err(Failure::usage(format!(
-                "{name} has patches: --boundary and --creasing are for cages"
-            )));
-        }
         let crease_angle = self.crease_angle.or(subject.cage().is_none().then_some(CREASE_ANGLE));
         match (self.max_angle, crease_angle) {
             (Some(max), Some(crease)) if max >= crease => Err(Failure::usage(format!(

@@ -21,7 +21,7 @@ use crate::error::{Failure, Finding};
 use crate::names::{Format, formats};
 use crate::output::Destination;
 use crate::report::{Console, Table, bytes, figure};
-use crate::subject::Subject;
+use crate::subject::{Subject, or_part};
 use crate::system;
 use crate::view::{LightArguments, ViewArguments, positive};
 
@@ -33,7 +33,7 @@ Examples:
 
 /// Trace reflection lines, highlight lines or isophotes as curves on the limit surface
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, mut_arg("cage", or_part))]
 pub(crate) struct Lines {
     #[command(flatten)]
     cage: CageArguments,
@@ -150,6 +150,7 @@ impl Lines {
         let progress = console.progress();
         progress.step("reading");
         let subject = Subject::read(&self.cage)?;
+        subject.check_rules(&self.cage)?;
         destination.check()?;
         progress.step("tracing");
         let found = subject.look(|surface| self.found(&subject, surface, format, &destination))?;
@@ -222,7 +223,7 @@ impl Lines {
         let refused = |error: LinesError| subject.failure(error.code(), error.to_string());
         let lines = merged(all.map_err(refused)?);
         if lines.lines.is_empty() {
-            return Err(subject.failure("no_lines", why_none(&lines, &options)));
+            return Err(subject.failure("no_lines", self.why_none(&lines, &options)));
         }
         let fairness = Fairness::of_all(&lines.lines, surface, &field);
         let mut edges = Vec::new();
@@ -283,20 +284,34 @@ impl Lines {
         let levels = sides.map(|first| Levels::Every { first, period }).collect();
         (Field::Plane { light, viewer, ray, axis: 0 }, levels)
     }
-}
 
-/// Why there are no lines.
-fn why_none(traced: &LevelLines, options: &LineOptions<'_>) -> String {
-    match traced.range {
-        None => "no ray from the surface meets the light plane: raise it, or look from elsewhere".to_owned(),
-        Some(_) if traced.crossings > 0 || options.front.is_some() => {
-            "no line is where it was asked for: in sight, facing the eye, on the light".to_owned()
+    /// Why there are no lines.
+    fn why_none(&self, traced: &LevelLines, options: &LineOptions<'_>) -> String {
+        match (traced.range, self.style) {
+            (None, LineStyle::Highlight) => {
+                "no normal of the surface meets the light plane: move it to the side that they point to"
+                    .to_owned()
+            }
+            (None, _) => {
+                "no ray from the surface meets the light plane: raise it, or look from elsewhere".to_owned()
+            }
+            (Some(_), _) if traced.crossings > 0 || options.front.is_some() => {
+                "no line is where it was asked for: in sight, facing the eye, on the light".to_owned()
+            }
+            (Some(range), LineStyle::Isophote) => {
+                let [most, least] = range.map(|cosine| figure(cosine.clamp(-1.0, 1.0).acos().to_degrees()));
+                format!(
+                    "no line meets the surface, which is turned from the light by {least} to {most} degrees: its faces \
+                     are flat, or ask for a smaller --step"
+                )
+            }
+            (Some(range), _) => {
+                let [low, high] = range.map(figure);
+                format!(
+                    "no line meets the surface, which sees the light from {low} to {high}: ask for more lines"
+                )
+            }
         }
-        Some([low, high]) => format!(
-            "no line meets the surface, which sees the light from {} to {}: ask for more lines",
-            figure(low),
-            figure(high)
-        ),
     }
 }
 

@@ -10,7 +10,7 @@ use clap::Args;
 use ogee::Vec3;
 use ogee::quality::Surface;
 use ogee_render::{
-    Image, Light, MOST_PIXELS, Pattern, Picture, Quantity, Sampling, Scene, Style, outline, render,
+    Image, Light, MOST_PIXELS, Pattern, Picture, Quantity, Sampling, Scene, Style, comb, outline, render,
 };
 use serde::Serialize;
 
@@ -19,7 +19,7 @@ use crate::cage::{CageArguments, read_bytes};
 use crate::error::{Failure, Finding};
 use crate::names::{Format, formats};
 use crate::report::{Console, Table, bytes};
-use crate::subject::Subject;
+use crate::subject::{Subject, or_part};
 use crate::view::{LightArguments, ViewArguments};
 
 const EXAMPLES: &str = "\
@@ -31,7 +31,7 @@ Examples:
 
 /// Draw the surface: shaded, mirrored lines, bands, curvature
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, mut_arg("cage", or_part))]
 pub(crate) struct Render {
     #[command(flatten)]
     cage: CageArguments,
@@ -69,6 +69,9 @@ pub(crate) struct Render {
     #[command(flatten)]
     lights: LightArguments,
 }
+
+/// Of the diagonal: how long the hairs of combs are, where nine in ten are shorter.
+const HAIRS: f64 = 0.04;
 
 /// Styles by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -207,6 +210,7 @@ impl Render {
         let progress = console.progress();
         progress.step("reading");
         let subject = Subject::read(&self.cage)?;
+        subject.check_rules(&self.cage)?;
         destination.check()?;
         let other = match &self.beside {
             Some(file) => Some(Subject::read(&self.cage.for_file(file))?),
@@ -228,8 +232,8 @@ impl Render {
             let scene = Scene { style, ..scene };
             let second = self.draw(other, &scene)?.picture;
             let mut second = second.reduced(self.samples).image();
-            pixels.add_caption(&subject.name);
-            second.add_caption(&other.name);
+            pixels.add_caption(&subject.file_name());
+            second.add_caption(&other.file_name());
             pixels = pixels.beside(&second);
         }
         progress.step("writing");
@@ -275,7 +279,11 @@ impl Render {
         image: Option<Arc<Light>>,
     ) -> Result<Scene, Failure> {
         let bounds = subject.bounds(surface)?;
-        let camera = self.view.camera(&outline(surface))?;
+        let mut shown = outline(surface);
+        if self.style == Look::Combs {
+            shown.extend(comb::tips(surface, HAIRS));
+        }
+        let camera = self.view.camera(&shown)?;
         let size = self.view.size.map(|side| side * self.samples);
         Ok(Scene { camera, size, style: self.style(bounds, image), sampling: self.sampling.0 })
     }
@@ -365,7 +373,7 @@ impl Render {
                 };
                 Style::Error { light, level }
             }
-            Look::Combs => Style::Combs { share: 0.04 },
+            Look::Combs => Style::Combs { share: HAIRS },
         }
     }
 }

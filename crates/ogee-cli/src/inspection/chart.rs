@@ -2,8 +2,7 @@
 
 use std::fmt::Write;
 
-use ogee_render::colour::encode;
-use ogee_render::{Quantity, shade};
+use ogee_render::{Quantity, colour, shade};
 
 use super::figures::{Point, Spread};
 use super::number;
@@ -92,8 +91,7 @@ pub(super) fn scale(limit: f64) -> String {
     let stops: Vec<String> = (0..=8)
         .map(|k| {
             let share = f64::from(k) / 4.0 - 1.0;
-            let colour = shade::map(Quantity::Mean, Some(share), 1.0);
-            let [red, green, blue] = colour.map(|x| (255.0 * encode(x) + 0.5) as u8);
+            let [red, green, blue] = colour::bytes(shade::map(Quantity::Mean, Some(share), 1.0));
             format!("rgb({red} {green} {blue})")
         })
         .collect();

@@ -172,13 +172,13 @@ impl Measured {
     }
 }
 
-/// A vector along the level line of a field.
+/// The unit direction of the level line of a field.
 fn line_tangent(point: &LimitJet, field: &Field) -> Option<Vec3> {
     let jet = &point.jet;
     let field = field.jet(&NormalJet::of(jet)?)?;
     let along = field.du * jet.dv - field.dv * jet.du;
     let is_moving = along.length() > STILL * jet.du.cross(jet.dv).length();
-    (is_moving && along.is_finite()).then_some(along)
+    along.normalized().filter(|_| is_moving)
 }
 
 /// What is measured joint after joint.

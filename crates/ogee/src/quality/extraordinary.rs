@@ -5,7 +5,7 @@
 //! can be compared is how much it swings round a ring, and by what factor it grows from a ring to one of half the radius.
 
 use super::continuity::jet;
-use super::{Address, Layout, Side, Surface};
+use super::{Address, FLAT, Layout, Side, Surface};
 use crate::limit::{Derivatives, Flags, Samples};
 use crate::math::{Vec3, par};
 use crate::patch::Location;
@@ -120,9 +120,6 @@ pub enum Cause {
 
 /// Growth at each halving of the radius above which curvature counts as unbounded; the least of the rules is 1.07.
 const GROWING: f64 = 1.02;
-
-/// Curvature below this share of one over the size of the surface is that of a plane.
-const FLAT: f64 = 1e-6;
 
 /// Faces whose normals differ by more than this at a common point, in degrees, have no tangent plane there.
 const TORN: f64 = 0.5;

@@ -30,6 +30,10 @@ use crate::math::Vec3;
 use crate::mesh::FaceId;
 use crate::patch::Location;
 
+/// Curvature below this share of one over the size of a surface is that of a plane: nobody sees it, and rounding makes as
+/// much.
+pub const FLAT: f64 = 1e-6;
+
 /// A surface made of faces with parameters in `[0, 1]`, joined along their sides.
 pub trait Surface: Sync {
     /// How its faces lie side by side.

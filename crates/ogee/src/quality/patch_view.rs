@@ -154,7 +154,9 @@ fn joints(patches: &[(NurbsSurface, Grid<FaceAddress>)], squares: &[Square]) -> 
         }
         let [x, y, z] = cell(*middle);
         let around = (-1..=1).flat_map(|i| (-1..=1).flat_map(move |j| (-1..=1).map(move |k| [i, j, k])));
-        let candidates = around.filter_map(|[i, j, k]| cells.get(&[x + i, y + j, z + k])).flatten();
+        // Patches that are far from the origin for their size lie in the last cell.
+        let beside = |[i, j, k]: [i64; 3]| [x.saturating_add(i), y.saturating_add(j), z.saturating_add(k)];
+        let candidates = around.filter_map(|offset| cells.get(&beside(offset))).flatten();
         let partner = candidates.copied().map(|other| other as usize).filter(|&other| {
             let [a, b, c] = sides[other].1;
             let gap = start.distance(c).max(middle.distance(b)).max(end.distance(a));

@@ -56,7 +56,7 @@ impl Report {
             bounding_box,
             squares: surface.layout().squares().len(),
             continuity,
-            curvature: CurvatureStatistics::new(surface),
+            curvature: CurvatureStatistics::new(surface, size),
             extraordinary: Extraordinary::new(surface, &is_sharp, size, *points),
         })
     }

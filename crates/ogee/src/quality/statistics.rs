@@ -4,7 +4,7 @@
 //! lie inside the squares: extraordinary points, where there is no curvature, are never hit.
 
 use super::continuity::jet;
-use super::{Address, Surface};
+use super::{Address, FLAT, Surface};
 use crate::limit::{Derivatives, Flags, Samples};
 use crate::math::{Vec3, par};
 use crate::nurbs::gauss;
@@ -27,9 +27,10 @@ pub struct CurvatureStatistics {
     pub gauss: Distribution,
     /// The principal curvature of larger size, without sign.
     pub greatest: Distribution,
-    /// The strongest bend away from the normals, outward ones: an edge.
+    /// The strongest bend away from the normals, outward ones: an edge. `None` where it is flat or hollow all over.
     pub convex: Option<Bend>,
-    /// The strongest bend towards the normals: a groove, and what limits the radius of a tool.
+    /// The strongest bend towards the normals: a groove, and what limits the radius of a tool. `None` where it is flat or
+    /// bulges all over.
     pub concave: Option<Bend>,
 }
 
@@ -92,8 +93,8 @@ struct Sample {
 }
 
 impl CurvatureStatistics {
-    /// Samples every square; fewer samples a square where there are very many.
-    pub(super) fn new(surface: &dyn Surface) -> CurvatureStatistics {
+    /// Samples every square; fewer samples a square where there are very many. `size` is the diagonal of the surface.
+    pub(super) fn new(surface: &dyn Surface, size: f64) -> CurvatureStatistics {
         let squares = surface.layout().squares();
         let side = ((MOST as f64 / squares.len().max(1) as f64).sqrt() as usize).clamp(1, NODES);
         let nodes: Vec<(f64, f64)> =
@@ -126,7 +127,7 @@ impl CurvatureStatistics {
             for (i, sample) in all[start..].iter().enumerate() {
                 let Some([k1, k2]) = sample.principal else { continue };
                 for (best, k) in strongest.iter_mut().zip([-k2, k1]) {
-                    if k > best.map_or(0.0, |best| best.0) {
+                    if k > best.map_or(FLAT / size, |best| best.0) {
                         *best = Some((k, places[i], samples.position[i]));
                     }
                 }

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::Levels;
-use super::lattice::{COARSE, DEPTH, Lattice, Place, WHOLE, on_side, side_of};
+use super::lattice::{COARSE, Lattice, Place, WHOLE, on_side, side_of};
 use super::probe::{Probe, Sample};
 use super::wanted::Wanted;
 use crate::math::par;
@@ -212,12 +212,14 @@ pub(super) struct AllCells {
 impl AllCells {
     /// Cells as fine as the field asks for.
     pub(super) fn new<'a>(plan: &Plan<'_>, probe: impl Fn() -> Probe<'a> + Sync + Send) -> AllCells {
-        let coarse: Vec<Cell> = (0..COARSE)
-            .flat_map(|j| (0..COARSE).map(move |i| [i << DEPTH, j << DEPTH]))
-            .map(|start| Cell { start, size: 1 << DEPTH })
+        let squares = plan.lattice.layout.squares().len();
+        let along = coarse(squares, plan.most);
+        let size = WHOLE / along;
+        let coarse: Vec<Cell> = (0..along)
+            .flat_map(|j| (0..along).map(move |i| Cell { start: [i * size, j * size], size }))
             .collect();
         let count = AtomicUsize::new(0);
-        let squares = par::map(plan.lattice.layout.squares().len(), |square| {
+        let squares = par::map(squares, |square| {
             let mut cells = Cells::default();
             cells.settle(square as u32, coarse.clone(), plan, &mut probe(), &count);
             cells
@@ -314,6 +316,16 @@ impl AllCells {
     }
 }
 
+/// Cells along a side of a square to begin with: fewer where there are so many squares that these alone would be half of
+/// the most cells. There faces are small, and cells are cut where the field bends as ever.
+fn coarse(squares: usize, most: usize) -> u16 {
+    let mut along = COARSE;
+    while along > 1 && squares * usize::from(along).pow(2) > most / 2 {
+        along /= 2;
+    }
+    along
+}
+
 /// The least and the greatest; the wrong way round if there are none.
 fn extent(values: &[f64]) -> (f64, f64) {
     values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &x| (low.min(x), high.max(x)))
@@ -327,4 +339,33 @@ fn bend(corners: &[f64; 4], centre: f64) -> f64 {
 /// True if a field can leap from one end of numbers to the other: where rays run along the plane.
 pub(super) fn can_leap(field: &Field) -> bool {
     matches!(field, Field::Plane { .. })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::quality::{LimitView, LineOptions, Surface};
+    use crate::{Level, LimitSurface, PatchTable, Vec3, shapes};
+
+    #[test]
+    fn many_squares_begin_with_few_cells() {
+        assert_eq!([100, 1000, 10_000, 100_000].map(|most| coarse(400, most)), [1, 1, 2, 8]);
+        let mesh = shapes::torus(10, 8);
+        let level = Level::new(&mesh).unwrap();
+        let table = PatchTable::new(&level);
+        let limit = LimitSurface::new(&table, &mesh.points);
+        let surface = LimitView::new(&level, &limit);
+        let lattice = Lattice::new(surface.layout());
+        let field = Field::Isophote { light: Vec3::new(0.0, 0.6, 0.8) };
+        let levels = Levels::Listed(vec![0.5]);
+        let wanted = Wanted::new(&field, &LineOptions::new(1e-3));
+        // Less than eight by eight in each of the squares.
+        let most = 60 * surface.layout().squares().len();
+        let range = [f64::NEG_INFINITY, f64::INFINITY];
+        let plan = Plan { lattice: &lattice, levels: &levels, wanted: &wanted, range, leaps: false, most };
+        let cells = AllCells::new(&plan, || Probe::new(&surface, &field));
+        assert!(!cells.are_too_many(&plan));
+        let area = |cells: &Cells| cells.leaves.iter().map(|cell| u32::from(cell.size).pow(2)).sum::<u32>();
+        assert!(cells.squares.iter().all(|cells| area(cells) == u32::from(WHOLE).pow(2)));
+    }
 }

@@ -10,10 +10,13 @@ use crate::quality::layout::{Layout, Side, side_point};
 pub(super) const COARSE: u16 = 8;
 
 /// How often cells are cut in four at most.
-pub(super) const DEPTH: u16 = 5;
+const DEPTH: u16 = 5;
 
 /// Places along a side of a square: 0 to this.
 pub(super) const WHOLE: u16 = COARSE << DEPTH;
+
+/// How often a whole square can be cut in four.
+pub(super) const CUTS: u32 = WHOLE.ilog2();
 
 /// A place of a square.
 pub(super) type Place = [u16; 2];

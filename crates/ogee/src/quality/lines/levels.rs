@@ -36,6 +36,14 @@ impl Levels {
         }
     }
 
+    /// All values less a little.
+    pub(super) fn lowered(&self, by: f64) -> Levels {
+        match self {
+            Levels::Every { first, period } => Levels::Every { first: first - by, period: *period },
+            Levels::Listed(values) => Levels::Listed(values.iter().map(|value| value - by).collect()),
+        }
+    }
+
     /// The value of an index.
     #[inline]
     pub(super) fn value(&self, index: i64) -> f64 {

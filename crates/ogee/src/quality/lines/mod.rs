@@ -36,7 +36,7 @@ use cells::{AllCells, Cell, Plan};
 use chain::{Piece, Tracer};
 use crossing::Node;
 pub use fairness::Fairness;
-use lattice::{DEPTH, Lattice};
+use lattice::{CUTS, Lattice};
 pub use levels::Levels;
 use march::Segment;
 use probe::{Probe, Spot};
@@ -125,7 +125,7 @@ pub enum LinesError {
     #[error("the surface has no faces, no extent, or points that are not finite")]
     NoSurface,
     /// More than memory is meant for.
-    #[error("there are too many lines on this surface: more than {most} pieces")]
+    #[error("there are too many lines on this surface, of more than {most} pieces or cells: ask for fewer")]
     TooMany {
         /// The most.
         most: usize,
@@ -149,8 +149,12 @@ impl LinesError {
 /// Cells, and pieces of lines, at most: a gigabyte or so.
 const MOST: usize = 1 << 22;
 
-/// Of the size: what the field of a crossing may be off by.
+/// Of the size: what the field of a point of a line may be off by.
 const RESIDUAL: f64 = 1e-12;
+
+/// Of that: how far below its value a line is looked for. Where the field is a line's value all over a face, up to rounding,
+/// all of it counts as above: the line goes round it, and there are no specks in it.
+const BELOW: f64 = 0.05;
 
 /// Traces the lines on which a field has the wanted values.
 ///
@@ -182,8 +186,11 @@ pub fn level_lines(
     };
     let leaps = cells::can_leap(field);
     let wanted = Wanted::new(field, options);
-    let plan = Plan { lattice: &lattice, levels, wanted: &wanted, range: [-half, half], leaps, most: MOST };
     let residual = RESIDUAL * size_of_field.unwrap_or(size);
+    let (below, residual) = (BELOW * residual, (1.0 - BELOW) * residual);
+    let lowered = levels.lowered(below);
+    let range = [-half, half];
+    let plan = Plan { lattice: &lattice, levels: &lowered, wanted: &wanted, range, leaps, most: MOST };
     let tracer = Tracer { lattice: &lattice, options, residual, wanted: &wanted };
     let tracing = Tracing { plan: &plan, tracer: &tracer, surface, field: &unbounded };
     let (cells, nodes, traced) = tracing.run()?;
@@ -194,7 +201,7 @@ pub fn level_lines(
         let (_, spot) = node.found.as_ref()?;
         Some((spot.value? - levels.value(node.key.index)).abs())
     };
-    let residuals = pieces.iter().map(|piece| piece.residual).chain(nodes.iter().filter_map(rest));
+    let residuals = pieces.iter().map(|piece| piece.residual + below).chain(nodes.iter().filter_map(rest));
     Ok(LevelLines {
         lines,
         crossings: nodes.iter().filter(|node| node.found.is_some()).count(),
@@ -259,7 +266,7 @@ impl<'a> Tracing<'a> {
         let mut nodes: Vec<Node> = Vec::new();
         let mut traced = Vec::new();
         traced.resize_with(cells.squares.len(), Traced::default);
-        for round in 0..=DEPTH {
+        for round in 0..=CUTS {
             if cells.are_too_many(plan) {
                 return Err(too_many);
             }
@@ -288,7 +295,7 @@ impl<'a> Tracing<'a> {
                 .zip(&traced)
                 .flat_map(|(square, traced)| traced.rough.iter().map(move |&cell| (square, cell)));
             let rough: Vec<(u32, Cell)> = rough.collect();
-            if rough.is_empty() || round == DEPTH {
+            if rough.is_empty() || round == CUTS {
                 return Ok((cells, nodes, traced));
             }
             cells.refine(&rough, plan, || self.probe());
