@@ -53,6 +53,7 @@ fn flags_at(basis: &ChainBasis) -> Flags {
     let (one_sided, unbounded) = match basis.kind {
         Kind::Smooth { valence } => (valence < 3, valence > 4),
         Kind::Cone { .. } => (true, true),
+        Kind::Meeting { .. } => (false, true),
         Kind::Dart { .. } => (basis.tangents.is_none(), true),
         Kind::Crease { faces, .. } => (faces > 3, faces > 2),
         Kind::Corner { faces, .. } => (faces > 2, faces > 2),

@@ -70,7 +70,13 @@ impl LimitSurface<'_> {
     fn piece(&self, piece: Piece, least: f64) -> FacePiece {
         match piece {
             Piece::Leaf(leaf) => FacePiece::Leaf(self.net(self.table().leaf(leaf))),
-            Piece::Tail(number) => FacePiece::Tail(self.tail(number, self.table().tail(number), least)),
+            Piece::Tail(number) => {
+                let tail = self.table().tail(number);
+                match self.table().basis(tail).has_quarters() {
+                    true => self.meeting(number, tail, least),
+                    false => FacePiece::Tail(self.tail(number, tail, least)),
+                }
+            }
             Piece::Split(split) => FacePiece::Split(Box::new(
                 self.table().split(split).map(|node| self.piece(node.piece(), least)),
             )),
@@ -106,6 +112,41 @@ impl LimitSurface<'_> {
             eigenvalue: basis.eigenvalue,
             steps: (1..=count).map(nets).collect(),
         }
+    }
+
+    /// A face at a meeting of curves: a tile of its chain is four patches, so it is split again and again, and what is left
+    /// at the end is plane.
+    fn meeting(&self, number: u32, tail: Tail, least: f64) -> FacePiece {
+        let (table, points) = (self.table(), self.points());
+        let basis = table.basis(tail);
+        let mut walk = Walk::default();
+        let corner = at_corner(&mut walk, table, points, number, tail);
+        let count = ((least.ln() / 0.5_f64.ln()).ceil() as i32).clamp(1, last_step(basis));
+        let turned = &TURNED[tail.corner as usize];
+        let from_own = |quarter: usize| (quarter + 4 - tail.corner as usize) % 4;
+        let shrunk = 0.5_f64.powi(count);
+        let mut inner = FacePiece::Leaf(std::array::from_fn(|k| {
+            let (i, j) = ((k % 4) as f64 - 1.0, (k / 4) as f64 - 1.0);
+            let [origin_i, origin_j] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]][tail.corner as usize];
+            corner.position + shrunk * ((i - origin_i) * corner.du + (j - origin_j) * corner.dv)
+        }));
+        for step in (1..=count).rev() {
+            walk.go(table, points, number, tail, step);
+            let base = wide(narrow(walk.base()));
+            let leaf = |tile: usize| {
+                let net = walk.control_net(basis, tile);
+                FacePiece::Leaf(std::array::from_fn(|k| narrow(add(net[usize::from(turned[k])], base))))
+            };
+            let mut own = Some(inner);
+            let quarters = [0, 1, 2, 3].map(|quarter| match from_own(quarter) {
+                0 => own.take().unwrap_or_else(|| unreachable!("one of four is at the corner")),
+                tile => FacePiece::Split(Box::new(
+                    [0, 1, 2, 3].map(|smaller| leaf(4 * (tile - 1) + from_own(smaller))),
+                )),
+            });
+            inner = FacePiece::Split(Box::new(quarters));
+        }
+        inner
     }
 }
 

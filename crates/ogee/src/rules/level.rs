@@ -146,9 +146,9 @@ impl Level {
         self.vertex_sharpness.get(v.0).unwrap_or(0.0)
     }
 
-    /// True if an edge or vertex is sharp by a tag.
+    /// True if an edge or vertex is sharp by a tag, or curves meet.
     pub(crate) fn has_tags(&self) -> bool {
-        !self.sharp_edges.is_empty() || !self.vertex_sharpness.is_empty()
+        !self.sharp_edges.is_empty() || !self.vertex_sharpness.is_empty() || self.has_slices()
     }
 
     /// The edges with finite sharpness above zero, by one halfedge each.
