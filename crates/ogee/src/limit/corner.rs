@@ -35,6 +35,11 @@ pub(super) fn at_corner(
         tangents = [tangents[1], tangents[0]];
         normal = normal.map(|n| -n);
     }
+    if let (Kind::Meeting { .. }, Some(normal)) = (basis.kind, normal)
+        && !walk.agree_on(normal, basis)
+    {
+        flags = flags.with(Flags::NORMAL_ONE_SIDED);
+    }
     if normal.is_none() {
         flags = flags.with(Flags::NORMAL_UNDEFINED);
     }

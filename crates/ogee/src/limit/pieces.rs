@@ -5,7 +5,7 @@ use super::LimitSurface;
 use super::corner::at_corner;
 use super::walk::{Walk, add, last_step, narrow, wide};
 use crate::math::Vec3;
-use crate::patch::{Piece, TURNED, Tail};
+use crate::patch::{Piece, TURNED, Tail, from_corner};
 
 /// Control points of one bicubic patch, `i + 4 j`, `i` along `u`: a uniform B-spline over the inner cell of a grid.
 pub type PatchNet = [Vec3; 16];
@@ -114,8 +114,8 @@ impl LimitSurface<'_> {
         }
     }
 
-    /// A face at a meeting of curves: a tile of its chain is four patches, so it is split again and again, and what is left
-    /// at the end is plane.
+    /// A face at a meeting of curves. A tile of its chain is four patches, so it is split again and again; what is left at the
+    /// end is taken for a plane.
     fn meeting(&self, number: u32, tail: Tail, least: f64) -> FacePiece {
         let (table, points) = (self.table(), self.points());
         let basis = table.basis(tail);
@@ -127,12 +127,12 @@ impl LimitSurface<'_> {
         let shrunk = 0.5_f64.powi(count);
         let mut inner = FacePiece::Leaf(std::array::from_fn(|k| {
             let (i, j) = ((k % 4) as f64 - 1.0, (k / 4) as f64 - 1.0);
-            let [origin_i, origin_j] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]][tail.corner as usize];
-            corner.position + shrunk * ((i - origin_i) * corner.du + (j - origin_j) * corner.dv)
+            let (u, v) = from_corner(tail.corner, 0.0, 0.0);
+            corner.position + shrunk * ((i - u) * corner.du + (j - v) * corner.dv)
         }));
         for step in (1..=count).rev() {
             walk.go(table, points, number, tail, step);
-            let base = wide(narrow(walk.base()));
+            let base = walk.base();
             let leaf = |tile: usize| {
                 let net = walk.control_net(basis, tile);
                 FacePiece::Leaf(std::array::from_fn(|k| narrow(add(net[usize::from(turned[k])], base))))
@@ -154,7 +154,7 @@ impl LimitSurface<'_> {
 mod tests {
     use super::super::bicubic::basis;
     use super::*;
-    use crate::mesh::{Crease, Sharpness, shapes};
+    use crate::mesh::{Crease, Meeting, Sharpness, shapes};
     use crate::patch::{from_corner, to_corner};
     use crate::rules::Level;
     use crate::{Location, PatchTable, SurfacePoint};
@@ -205,8 +205,11 @@ mod tests {
         creased.creases.push(Crease { vertices: [0, 1], sharpness: Sharpness::Infinite });
         let mut faded = shapes::cube();
         faded.creases.push(Crease { vertices: [0, 1], sharpness: Sharpness::Finite(1.5) });
+        let mut met = shapes::disk(6, 2);
+        let ports = met.faces.iter().step_by(8).map(|face| face[1]).collect();
+        met.meetings.push(Meeting { vertex: 0, ports, t: 0.3 });
         let mut kinds = [0; 3];
-        for mesh in [shapes::studded_torus(12, 8, 4), faded, creased] {
+        for mesh in [shapes::studded_torus(12, 8, 4), faded, creased, met] {
             let table = PatchTable::new(&Level::new(&mesh).unwrap());
             let surface = LimitSurface::new(&table, &mesh.points);
             for face in 0..table.len() {

@@ -4,6 +4,7 @@ mod check;
 pub(crate) mod connectivity;
 mod control_mesh;
 mod ids;
+mod meetings;
 pub mod shapes;
 mod statistics;
 pub(crate) mod topology;

@@ -96,6 +96,17 @@ impl Kind {
     pub(crate) fn ring_count(self) -> usize {
         self.inner_count() + 5 + usize::from(self.continues_below()) + usize::from(self.continues_left())
     }
+
+    /// Where curves meet, the two tangents of a quad: the one with number `k` counter-clockwise from the quad that is looked
+    /// from. `ring` has the points around the vertex, relative to it.
+    pub(crate) fn meeting_tangents(self, ring: &[Vec3], k: usize) -> [Vec3; 2] {
+        let Kind::Meeting { ports, port_first, t } = self else { return [Vec3::ZERO; 2] };
+        let weights = meeting_tangents(ports as usize, port_first == k.is_multiple_of(2), f64::from_bits(t));
+        weights.map(|weights| {
+            let around = ring.iter().cycle().skip(2 * k);
+            weights[1..].iter().zip(around).fold(Vec3::ZERO, |sum, (&weight, &p)| sum + weight * p)
+        })
+    }
 }
 
 /// A point with a fourth coordinate of zero: what lanes of four like.
@@ -573,7 +584,7 @@ impl Model {
         if let Kind::Meeting { port_first, t, .. } = kind {
             slices.extend((0..faces).map(|i| {
                 let (halfedge, t) = (HalfedgeId(4 * i), f64::from_bits(t));
-                (i, Slice { halfedge, port_first: port_first == (i % 2 == 0), t })
+                (i, Slice { halfedge, port_first: port_first == i.is_multiple_of(2), t })
             }));
         }
         let level = Level::with_sharpness(topology, scheme, sharp, Sparse::new(corners), Vec::new())

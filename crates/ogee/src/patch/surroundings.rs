@@ -98,7 +98,9 @@ impl<'a> Surroundings<'a> {
         }
         let own = own.map(|(at, _)| at);
         let others = topology.ring(v).filter_map(centre).any(|(at, _)| own != Some(at));
-        others.then_some(None)
+        // Points mirrored at a sharp edge would have to be mirrored with the rule.
+        let is_sharp = |h| level.is_sharp(h) || level.is_sharp(topology.prev(h));
+        (others || own.is_some() && topology.ring(v).any(is_sharp)).then_some(None)
     }
 
     /// The halfedges that leave the corner, over the sector that `h` lies in, counter-clockwise: from its first sharp
