@@ -52,14 +52,14 @@ fn fault(mesh: &ControlMesh, meeting: &Meeting, around: &[Around]) -> Option<Str
     if let Some(Around { face, size, .. }) = around.iter().find(|around| around.size != 4) {
         return Some(format!("face {face} there has {size} corners, not 4"));
     }
-    let first = ports.first()?;
-    let mut spokes = vec![*first];
+    let Some(&first) = ports.first() else { return Some("it has no ports".to_owned()) };
+    let mut spokes = vec![first];
     while spokes.len() <= around.len() {
         let last = spokes[spokes.len() - 1];
         let Some(next) = around.iter().find(|around| around.next == last) else { break };
         spokes.push(next.last);
     }
-    let is_ring = spokes.len() == around.len() + 1 && spokes.pop() == Some(*first);
+    let is_ring = spokes.len() == around.len() + 1 && spokes.pop() == Some(first);
     if !is_ring {
         return Some("it is not inside the surface, or its first port is no neighbour".to_owned());
     }
@@ -71,4 +71,76 @@ fn fault(mesh: &ControlMesh, meeting: &Meeting, around: &[Around]) -> Option<Str
         mesh.creases.iter().any(|crease| crease.vertices.contains(&vertex) && crease.sharpness.value() > 0.0)
             || mesh.corners.iter().any(|corner| corner.vertex == vertex && corner.sharpness.value() > 0.0);
     is_sharp.then(|| "an edge there or the vertex itself is sharp".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{Corner, Crease, FaceList, Sharpness, check, shapes};
+
+    fn messages(mesh: &ControlMesh) -> Vec<String> {
+        check(mesh).iter().map(ToString::to_string).collect()
+    }
+
+    #[test]
+    fn what_is_wrong_is_said() {
+        // A meeting of three in the middle of a disk; its neighbours in order, and a vertex of the rim.
+        let disk = shapes::disk(6, 2);
+        let spokes: Vec<u32> = disk.faces.iter().filter(|face| face[0] == 0).map(|face| face[1]).collect();
+        let ports = vec![spokes[0], spokes[2], spokes[4]];
+        let with = |meetings: Vec<Meeting>| ControlMesh { meetings, ..disk.clone() };
+        let good = Meeting { vertex: 0, ports: ports.clone(), t: 0.3 };
+        assert_eq!(messages(&with(vec![good.clone()])), [""; 0]);
+        let rim = disk.faces.face(3)[2];
+        let rotated = vec![ports[2], ports[0], ports[1]];
+        assert_eq!(messages(&with(vec![Meeting { ports: rotated, ..good.clone() }])), [""; 0]);
+        let bad = [
+            (Meeting { vertex: 99, ..good.clone() }, "names vertex 99, but there are only"),
+            (Meeting { vertex: rim, ..good.clone() }, "not inside the surface"),
+            (Meeting { t: 0.0, ..good.clone() }, "its parameter is 0,"),
+            (Meeting { t: f64::NAN, ..good.clone() }, "its parameter is NaN,"),
+            (Meeting { t: 0.51, ..good.clone() }, "its parameter is 0.51,"),
+            (Meeting { ports: vec![], ..good.clone() }, "no ports"),
+            (Meeting { ports: vec![rim, 1, 2], ..good.clone() }, "its first port is no neighbour"),
+            (Meeting { ports: vec![ports[0], ports[2], ports[1]], ..good.clone() }, "every second of its 6"),
+            (Meeting { ports: ports[..2].to_vec(), ..good.clone() }, "every second of its 6"),
+            (Meeting { ports: spokes.clone(), ..good.clone() }, "every second of its 6"),
+        ];
+        for (meeting, wanted) in bad {
+            let found = messages(&with(vec![meeting]));
+            assert!(found.len() == 1 && found[0].contains(wanted), "{wanted}: {found:?}");
+        }
+        let sharp = Sharpness::Infinite;
+        let creased = ControlMesh {
+            creases: vec![Crease { vertices: [0, spokes[1]], sharpness: sharp }],
+            ..with(vec![good.clone()])
+        };
+        let cornered =
+            ControlMesh { corners: vec![Corner { vertex: 0, sharpness: sharp }], ..with(vec![good.clone()]) };
+        for mesh in [creased, cornered] {
+            assert!(messages(&mesh)[0].contains("is sharp"));
+        }
+    }
+
+    #[test]
+    fn neighbours_and_polygons_are_refused() {
+        let mut grid = shapes::grid(5, 4);
+        let meeting = |vertex: u32| Meeting { vertex, ports: vec![vertex + 1, vertex - 1], t: 0.5 };
+        grid.meetings = vec![meeting(8), meeting(16)];
+        assert_eq!(messages(&grid), [""; 0]);
+        grid.meetings = vec![meeting(8), meeting(15)];
+        assert!(messages(&grid)[0].contains("shares face"), "{:?}", messages(&grid));
+        grid.meetings.pop();
+        let mut faces = FaceList::new();
+        for (f, face) in grid.faces.iter().enumerate() {
+            if f == 1 {
+                faces.push(&face[..3]);
+                faces.push(&[face[0], face[2], face[3]]);
+            } else {
+                faces.push(face);
+            }
+        }
+        grid.faces = faces;
+        assert!(messages(&grid)[0].contains("corners, not 4"), "{:?}", messages(&grid));
+    }
 }
