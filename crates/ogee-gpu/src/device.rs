@@ -26,7 +26,10 @@ pub struct DeviceOptions {
     pub name: Option<String>,
     /// How shaders read the surface; as the adapter likes it best unless it is given.
     pub storage: Option<Storage>,
-    /// The most bytes that one binding holds, if less than the adapter offers.
+    /// What the device is asked for; all that the adapter offers unless it is given.
+    /// [`wgpu::Limits::downlevel_webgl2_defaults`] are enough.
+    pub limits: Option<wgpu::Limits>,
+    /// The most bytes that one binding holds, if less than the limits allow.
     pub most_bytes: Option<u64>,
     /// How long a picture may take before the device is taken for hung.
     pub timeout: Duration,
@@ -38,6 +41,7 @@ impl Default for DeviceOptions {
             backends: Backends::VULKAN | Backends::METAL | Backends::DX12 | Backends::GL,
             name: None,
             storage: None,
+            limits: None,
             most_bytes: None,
             timeout: Duration::from_secs(60),
         }
@@ -63,12 +67,12 @@ impl Device {
     /// Opens the best device there is: one with memory of its own before one that shares it, either before software.
     ///
     /// # Errors
-    /// If there is none, or it will not be opened.
+    /// If there is none, or it will not be opened with what is asked for.
     pub fn new(options: &DeviceOptions) -> Result<Device, GpuError> {
         let mut adapters = adapters(options.backends - Backends::GL);
         let wanted = options.name.as_deref().unwrap_or_default().to_lowercase();
         let is_wanted = |adapter: &&wgpu::Adapter| {
-            let fits = options.storage != Some(Storage::Buffers) || has_buffers(adapter);
+            let fits = options.storage != Some(Storage::Buffers) || has_buffers(adapter, options);
             fits && adapter.get_info().name.to_lowercase().contains(&wanted)
         };
         // OpenGL reaches the same devices by a longer way.
@@ -78,8 +82,8 @@ impl Device {
         let Some(adapter) = adapters.iter().filter(is_wanted).min_by_key(|adapter| rank(adapter)) else {
             return Err(no_adapter(options, &adapters));
         };
-        let storage = options.storage.unwrap_or_else(|| best_storage(adapter));
-        let mut limits = adapter.limits();
+        let storage = options.storage.unwrap_or_else(|| best_storage(adapter, options));
+        let mut limits = limits(adapter, options);
         if let Some(most) = options.most_bytes {
             limits.max_storage_buffer_binding_size = limits.max_storage_buffer_binding_size.min(most);
         }
@@ -161,17 +165,21 @@ fn adapters(backends: Backends) -> Vec<wgpu::Adapter> {
     pollster::block_on(wgpu::Instance::new(descriptor).enumerate_adapters(backends))
 }
 
+fn limits(adapter: &wgpu::Adapter, options: &DeviceOptions) -> wgpu::Limits {
+    options.limits.clone().unwrap_or_else(|| adapter.limits())
+}
+
 /// Whether fragment shaders of an adapter read as many buffers as a surface has.
-fn has_buffers(adapter: &wgpu::Adapter) -> bool {
+fn has_buffers(adapter: &wgpu::Adapter, options: &DeviceOptions) -> bool {
     adapter.get_downlevel_capabilities().flags.contains(DownlevelFlags::FRAGMENT_STORAGE)
-        && adapter.limits().max_storage_buffers_per_shader_stage as usize >= 4 + PARTS
+        && limits(adapter, options).max_storage_buffers_per_shader_stage as usize >= 4 + PARTS
 }
 
 /// What shaders of an adapter read quickest. Software reads buffers one number after the other, texels several at a time: a
 /// third of the time.
-fn best_storage(adapter: &wgpu::Adapter) -> Storage {
+fn best_storage(adapter: &wgpu::Adapter, options: &DeviceOptions) -> Storage {
     let is_software = adapter.get_info().device_type == DeviceType::Cpu;
-    if has_buffers(adapter) && !is_software { Storage::Buffers } else { Storage::Textures }
+    if has_buffers(adapter, options) && !is_software { Storage::Buffers } else { Storage::Textures }
 }
 
 /// The best is least.
