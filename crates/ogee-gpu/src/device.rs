@@ -24,6 +24,8 @@ pub struct DeviceOptions {
     pub backends: Backends,
     /// A part of the adapter's name, in any case; the best adapter unless it is given.
     pub name: Option<String>,
+    /// Whether a program is to stand for the device, or must not; the best adapter unless it is given.
+    pub is_software: Option<bool>,
     /// How shaders read the surface; as the adapter likes it best unless it is given.
     pub storage: Option<Storage>,
     /// What the device is asked for; all that the adapter offers unless it is given.
@@ -40,6 +42,7 @@ impl Default for DeviceOptions {
         DeviceOptions {
             backends: Backends::VULKAN | Backends::METAL | Backends::DX12 | Backends::GL,
             name: None,
+            is_software: None,
             storage: None,
             limits: None,
             most_bytes: None,
@@ -72,8 +75,11 @@ impl Device {
         let mut adapters = adapters(options.backends - Backends::GL);
         let wanted = options.name.as_deref().unwrap_or_default().to_lowercase();
         let is_wanted = |adapter: &&wgpu::Adapter| {
+            let info = adapter.get_info();
+            let is_kind =
+                options.is_software.is_none_or(|wanted| wanted == (info.device_type == DeviceType::Cpu));
             let fits = options.storage != Some(Storage::Buffers) || has_buffers(adapter, options);
-            fits && adapter.get_info().name.to_lowercase().contains(&wanted)
+            is_kind && fits && info.name.to_lowercase().contains(&wanted)
         };
         // OpenGL reaches the same devices by a longer way.
         if !adapters.iter().any(|adapter| is_wanted(&adapter)) {
@@ -132,6 +138,8 @@ impl Device {
     /// # Errors
     /// If something failed, or it takes too long.
     pub fn finish(&self) -> Result<(), GpuError> {
+        // Data wait for a submission to go with.
+        self.queue.submit([]);
         let wait = wgpu::PollType::Wait { submission_index: None, timeout: Some(self.timeout) };
         let waited = self.device.poll(wait);
         self.check()?;
@@ -206,12 +214,17 @@ fn part(storage: Storage, limits: &wgpu::Limits, most_bytes: Option<u64>) -> u32
 
 fn no_adapter(options: &DeviceOptions, adapters: &[wgpu::Adapter]) -> GpuError {
     let backends: Vec<String> = options.backends.iter_names().map(|(name, _)| name.to_lowercase()).collect();
+    let kind = match options.is_software {
+        None => "an adapter",
+        Some(true) => "an adapter in software",
+        Some(false) => "an adapter that is no software",
+    };
     let name = options.name.as_ref().map(|name| format!(" named \"{name}\"")).unwrap_or_default();
     let storage = options.storage.filter(|&storage| storage == Storage::Buffers);
     let with = storage.map(|_| " with storage buffers in fragment shaders").unwrap_or_default();
     let found: Vec<String> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
     GpuError::NoAdapter {
-        wanted: format!("an adapter{name}{with} through {}", backends.join(", ")),
+        wanted: format!("{kind}{name}{with} through {}", backends.join(", ")),
         found: if found.is_empty() { "none at all".into() } else { found.join(", ") },
     }
 }

@@ -19,6 +19,24 @@ fn a_missing_adapter_is_named() {
 }
 
 #[test]
+fn software_is_told_from_hardware() {
+    let open = |is_software| Device::new(&DeviceOptions { is_software, ..DeviceOptions::default() });
+    for wanted in [true, false] {
+        match open(Some(wanted)) {
+            Ok(device) => assert_eq!(device.is_software(), wanted, "{}", device.name()),
+            Err(error) => {
+                assert_eq!(error.code(), "no_adapter");
+                assert!(error.to_string().contains("software"), "{error}");
+            }
+        }
+    }
+    // Hardware comes first.
+    if let Some(device) = device(&DeviceOptions::default()) {
+        assert_eq!(device.is_software(), open(Some(false)).is_err());
+    }
+}
+
+#[test]
 fn a_device_that_cannot_do_what_is_asked_for_is_an_error() {
     if device(&DeviceOptions::default()).is_none() {
         return;
