@@ -536,4 +536,14 @@ impl Scene {
         let camera = Camera::fit_from(THREE_QUARTER, &outline(surface), ANGLE, size);
         Scene { camera, size, style: Style::Shaded, sampling: Sampling::Exact }
     }
+
+    /// The scene of a second surface beside the picture of a first: the same colours for the same curvature.
+    #[must_use]
+    pub fn beside(&self, first: &Picture) -> Scene {
+        let style = match self.style {
+            Style::Curvature { quantity, .. } => Style::Curvature { quantity, limit: first.limit },
+            ref style => style.clone(),
+        };
+        Scene { style, ..self.clone() }
+    }
 }
