@@ -261,7 +261,7 @@ fn the_limit_stands_beside_the_patches_in_every_picture() {
     folder.write("far.obj", CUBE.replace("v 1 ", "v 901 ").replace("v -1 ", "v 899 "));
     let (without, report) = page("part.json --beside far.obj", 0);
     assert_eq!(sources(&without), alone);
-    assert_eq!(without.matches("no part of the surface is in the picture").count(), 6);
+    assert_eq!(without.matches("no part of the surface covers a pixel").count(), 6);
     let codes: Vec<&Value> = report["notes"].as_array().unwrap().iter().map(|note| &note["code"]).collect();
     assert!(codes.contains(&&json!("empty_view")), "{codes:?}");
 }
