@@ -229,6 +229,58 @@ fn the_page_opens_without_a_network_and_is_well_formed() {
 }
 
 #[test]
+fn the_limit_stands_beside_the_patches_in_every_picture() {
+    let folder = Folder::with_cube();
+    folder.ogee("convert cube.obj -o part.json").expect(0);
+    let page = |arguments: &str, code| {
+        let run = folder.ogee(&format!("inspect {arguments} --html page.html --json")).expect(code);
+        let page = String::from_utf8(folder.read("page.html")).unwrap();
+        assert_well_formed(&page);
+        (page, run.json())
+    };
+    let sources = |page: &str| -> Vec<String> {
+        let parts = page.split("<img src=\"").skip(1);
+        parts.map(|part| part[..part.find('"').unwrap()].to_owned()).collect()
+    };
+    let (alone, measured) = page("part.json", 0);
+    let (both, report) = page("part.json --beside cube.obj --boundary edge-only", 0);
+    assert_eq!(report["continuity"], measured["continuity"]);
+    let (alone, seen) = (sources(&alone), sources(&both));
+    assert_eq!((alone.len(), seen.len()), (6, 12));
+    for (k, first) in alone.iter().enumerate() {
+        assert!(*first == seen[2 * k] && *first != seen[2 * k + 1], "{k}");
+    }
+    // Beside itself a surface looks the same: camera, light and colours are those of the first.
+    let (twice, _) = page("part.json --beside part.json", 0);
+    assert!(sources(&twice).chunks(2).all(|pair| pair[0] == pair[1]));
+    for label in ["part.json, patches", "cube.obj, the limit surface"] {
+        assert_eq!(both.matches(label).count(), 6, "{label}");
+    }
+    assert_eq!(twice.matches("part.json, patches").count(), 12);
+    // What is elsewhere is not in these pictures.
+    folder.write("far.obj", CUBE.replace("v 1 ", "v 901 ").replace("v -1 ", "v 899 "));
+    let (without, report) = page("part.json --beside far.obj", 0);
+    assert_eq!(sources(&without), alone);
+    assert_eq!(without.matches("no part of the surface covers a pixel").count(), 6);
+    let codes: Vec<&Value> = report["notes"].as_array().unwrap().iter().map(|note| &note["code"]).collect();
+    assert!(codes.contains(&&json!("empty_view")), "{codes:?}");
+}
+
+#[test]
+fn what_is_beside_is_refused_as_what_is_inspected() {
+    let folder = Folder::with_cube();
+    for (arguments, code, says) in [
+        ("inspect cube.obj --beside cube.obj", 2, "--html"),
+        ("inspect cube.obj --beside missing.json --html page.html", 3, "missing.json"),
+        ("inspect cube.obj --beside cube.step --html page.html", 2, "unknown format"),
+    ] {
+        let run = folder.ogee(arguments).expect(code);
+        assert!(run.stderr.contains(says), "{arguments}: {}", run.stderr);
+    }
+    assert!(!folder.names().contains(&"page.html".to_owned()));
+}
+
+#[test]
 fn the_page_goes_to_stdout_too() {
     let folder = Folder::new();
     folder.write("bent.json", bent());

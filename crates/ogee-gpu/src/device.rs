@@ -24,9 +24,14 @@ pub struct DeviceOptions {
     pub backends: Backends,
     /// A part of the adapter's name, in any case; the best adapter unless it is given.
     pub name: Option<String>,
+    /// Whether a program is to stand for the device, or must not; the best adapter unless it is given.
+    pub is_software: Option<bool>,
     /// How shaders read the surface; as the adapter likes it best unless it is given.
     pub storage: Option<Storage>,
-    /// The most bytes that one binding holds, if less than the adapter offers.
+    /// What the device is asked for; all that the adapter offers unless it is given.
+    /// [`wgpu::Limits::downlevel_webgl2_defaults`] are enough.
+    pub limits: Option<wgpu::Limits>,
+    /// The most bytes that one binding holds, if less than the limits allow.
     pub most_bytes: Option<u64>,
     /// How long a picture may take before the device is taken for hung.
     pub timeout: Duration,
@@ -37,7 +42,9 @@ impl Default for DeviceOptions {
         DeviceOptions {
             backends: Backends::VULKAN | Backends::METAL | Backends::DX12 | Backends::GL,
             name: None,
+            is_software: None,
             storage: None,
+            limits: None,
             most_bytes: None,
             timeout: Duration::from_secs(60),
         }
@@ -63,13 +70,16 @@ impl Device {
     /// Opens the best device there is: one with memory of its own before one that shares it, either before software.
     ///
     /// # Errors
-    /// If there is none, or it will not be opened.
+    /// If there is none, or it will not be opened with what is asked for.
     pub fn new(options: &DeviceOptions) -> Result<Device, GpuError> {
         let mut adapters = adapters(options.backends - Backends::GL);
         let wanted = options.name.as_deref().unwrap_or_default().to_lowercase();
         let is_wanted = |adapter: &&wgpu::Adapter| {
-            let fits = options.storage != Some(Storage::Buffers) || has_buffers(adapter);
-            fits && adapter.get_info().name.to_lowercase().contains(&wanted)
+            let info = adapter.get_info();
+            let is_kind =
+                options.is_software.is_none_or(|wanted| wanted == (info.device_type == DeviceType::Cpu));
+            let fits = options.storage != Some(Storage::Buffers) || has_buffers(adapter, options);
+            is_kind && fits && info.name.to_lowercase().contains(&wanted)
         };
         // OpenGL reaches the same devices by a longer way.
         if !adapters.iter().any(|adapter| is_wanted(&adapter)) {
@@ -78,8 +88,8 @@ impl Device {
         let Some(adapter) = adapters.iter().filter(is_wanted).min_by_key(|adapter| rank(adapter)) else {
             return Err(no_adapter(options, &adapters));
         };
-        let storage = options.storage.unwrap_or_else(|| best_storage(adapter));
-        let mut limits = adapter.limits();
+        let storage = options.storage.unwrap_or_else(|| best_storage(adapter, options));
+        let mut limits = limits(adapter, options);
         if let Some(most) = options.most_bytes {
             limits.max_storage_buffer_binding_size = limits.max_storage_buffer_binding_size.min(most);
         }
@@ -128,6 +138,8 @@ impl Device {
     /// # Errors
     /// If something failed, or it takes too long.
     pub fn finish(&self) -> Result<(), GpuError> {
+        // Data wait for a submission to go with.
+        self.queue.submit([]);
         let wait = wgpu::PollType::Wait { submission_index: None, timeout: Some(self.timeout) };
         let waited = self.device.poll(wait);
         self.check()?;
@@ -161,17 +173,21 @@ fn adapters(backends: Backends) -> Vec<wgpu::Adapter> {
     pollster::block_on(wgpu::Instance::new(descriptor).enumerate_adapters(backends))
 }
 
+fn limits(adapter: &wgpu::Adapter, options: &DeviceOptions) -> wgpu::Limits {
+    options.limits.clone().unwrap_or_else(|| adapter.limits())
+}
+
 /// Whether fragment shaders of an adapter read as many buffers as a surface has.
-fn has_buffers(adapter: &wgpu::Adapter) -> bool {
+fn has_buffers(adapter: &wgpu::Adapter, options: &DeviceOptions) -> bool {
     adapter.get_downlevel_capabilities().flags.contains(DownlevelFlags::FRAGMENT_STORAGE)
-        && adapter.limits().max_storage_buffers_per_shader_stage as usize >= 4 + PARTS
+        && limits(adapter, options).max_storage_buffers_per_shader_stage as usize >= 4 + PARTS
 }
 
 /// What shaders of an adapter read quickest. Software reads buffers one number after the other, texels several at a time: a
 /// third of the time.
-fn best_storage(adapter: &wgpu::Adapter) -> Storage {
+fn best_storage(adapter: &wgpu::Adapter, options: &DeviceOptions) -> Storage {
     let is_software = adapter.get_info().device_type == DeviceType::Cpu;
-    if has_buffers(adapter) && !is_software { Storage::Buffers } else { Storage::Textures }
+    if has_buffers(adapter, options) && !is_software { Storage::Buffers } else { Storage::Textures }
 }
 
 /// The best is least.
@@ -198,12 +214,17 @@ fn part(storage: Storage, limits: &wgpu::Limits, most_bytes: Option<u64>) -> u32
 
 fn no_adapter(options: &DeviceOptions, adapters: &[wgpu::Adapter]) -> GpuError {
     let backends: Vec<String> = options.backends.iter_names().map(|(name, _)| name.to_lowercase()).collect();
+    let kind = match options.is_software {
+        None => "an adapter",
+        Some(true) => "an adapter in software",
+        Some(false) => "an adapter that is no software",
+    };
     let name = options.name.as_ref().map(|name| format!(" named \"{name}\"")).unwrap_or_default();
     let storage = options.storage.filter(|&storage| storage == Storage::Buffers);
     let with = storage.map(|_| " with storage buffers in fragment shaders").unwrap_or_default();
     let found: Vec<String> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
     GpuError::NoAdapter {
-        wanted: format!("an adapter{name}{with} through {}", backends.join(", ")),
+        wanted: format!("{kind}{name}{with} through {}", backends.join(", ")),
         found: if found.is_empty() { "none at all".into() } else { found.join(", ") },
     }
 }

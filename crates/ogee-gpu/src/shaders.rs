@@ -81,26 +81,80 @@ impl Entry {
 
 #[cfg(test)]
 mod tests {
+    use naga::back::glsl;
+    use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
+
     use super::*;
-    use crate::layout::{Face, Field, Pattern, Picture, PlaneLight, Shared, Square, Tail, View};
+    use crate::layout::{Face, Field, Pattern, Picture, PlaneLight, Shared, Shown, Square, Tail, View};
 
     fn parsed(entry: Entry, storage: Storage) -> naga::Module {
         let text = entry.text(storage, 1 << 20);
         naga::front::wgsl::parse_str(&text).unwrap_or_else(|error| panic!("{}", error.emit_to_string(&text)))
     }
 
+    fn validated(entry: Entry, storage: Storage) -> (naga::Module, naga::valid::ModuleInfo) {
+        let module = parsed(entry, storage);
+        let flags = naga::valid::ValidationFlags::all();
+        let mut validator = naga::valid::Validator::new(flags, naga::valid::Capabilities::empty());
+        match validator.validate(&module) {
+            Ok(info) => (module, info),
+            Err(error) => {
+                panic!("{entry:?} {storage:?}: {}", error.emit_to_string(&entry.text(storage, 1 << 20)))
+            }
+        }
+    }
+
     #[test]
     fn every_shader_is_valid() {
         for entry in Entry::ALL {
             for storage in [Storage::Buffers, Storage::Textures] {
-                let module = parsed(entry, storage);
-                let flags = naga::valid::ValidationFlags::all();
-                let mut validator = naga::valid::Validator::new(flags, naga::valid::Capabilities::empty());
-                if let Err(error) = validator.validate(&module) {
-                    panic!("{entry:?} {storage:?}: {}", error.emit_to_string(&entry.text(storage, 1 << 20)));
+                validated(entry, storage);
+            }
+        }
+    }
+
+    /// One stage of a shader as WebGL2 wants it, or why it cannot be had.
+    fn webgl2(entry: Entry, storage: Storage, stage: naga::ShaderStage) -> Result<String, String> {
+        let (module, info) = validated(entry, storage);
+        let name = if stage == naga::ShaderStage::Vertex { "vertex" } else { "fragment" };
+        let constants = Shown::nothing(1).constants().map(|(name, value)| (name.to_owned(), value));
+        let (module, info) = naga::back::pipeline_constants::process_overrides(
+            &module,
+            &info,
+            Some((stage, name)),
+            &constants.into_iter().collect(),
+        )
+        .map_err(|error| error.to_string())?;
+        let version = glsl::Version::Embedded { version: 300, is_webgl: true };
+        let options = glsl::Options { version, ..glsl::Options::default() };
+        let pipeline =
+            glsl::PipelineOptions { shader_stage: stage, entry_point: name.to_owned(), multiview: None };
+        // What `wgpu` asks for there.
+        let unchecked = BoundsCheckPolicy::Unchecked;
+        let policies = BoundsCheckPolicies {
+            index: unchecked,
+            buffer: unchecked,
+            image_load: unchecked,
+            binding_array: unchecked,
+        };
+        let mut text = String::new();
+        glsl::Writer::new(&mut text, &module, &info, &options, &pipeline, policies)
+            .and_then(|mut writer| writer.write())
+            .map_err(|error| error.to_string())?;
+        Ok(text)
+    }
+
+    #[test]
+    fn every_shader_that_reads_textures_is_one_of_webgl2() {
+        for entry in Entry::ALL {
+            for stage in [naga::ShaderStage::Vertex, naga::ShaderStage::Fragment] {
+                match webgl2(entry, Storage::Textures, stage) {
+                    Ok(text) => assert!(text.starts_with("#version 300 es"), "{text}"),
+                    Err(error) => panic!("{entry:?} {stage:?}: {error}"),
                 }
             }
         }
+        assert!(webgl2(Entry::Fused, Storage::Buffers, naga::ShaderStage::Fragment).is_err());
     }
 
     /// The struct as `naga` lays it out.

@@ -19,6 +19,36 @@ fn a_missing_adapter_is_named() {
 }
 
 #[test]
+fn software_is_told_from_hardware() {
+    let open = |is_software| Device::new(&DeviceOptions { is_software, ..DeviceOptions::default() });
+    for wanted in [true, false] {
+        match open(Some(wanted)) {
+            Ok(device) => assert_eq!(device.is_software(), wanted, "{}", device.name()),
+            Err(error) => {
+                assert_eq!(error.code(), "no_adapter");
+                assert!(error.to_string().contains("software"), "{error}");
+            }
+        }
+    }
+    // Hardware comes first.
+    if let Some(device) = device(&DeviceOptions::default()) {
+        assert_eq!(device.is_software(), open(Some(false)).is_err());
+    }
+}
+
+#[test]
+fn a_device_that_cannot_do_what_is_asked_for_is_an_error() {
+    if device(&DeviceOptions::default()).is_none() {
+        return;
+    }
+    let limits = wgpu::Limits { max_texture_dimension_2d: 1 << 24, ..wgpu::Limits::default() };
+    let options = DeviceOptions { limits: Some(limits), ..DeviceOptions::default() };
+    let error = Device::new(&options).expect_err("no texture is so wide");
+    assert_eq!(error.code(), "adapter_refused");
+    assert!(error.to_string().contains("max_texture_dimension_2d"), "{error}");
+}
+
+#[test]
 fn a_device_that_takes_too_long_is_an_error() {
     let Some(device) = device(&DeviceOptions { timeout: Duration::ZERO, ..DeviceOptions::default() }) else {
         return;

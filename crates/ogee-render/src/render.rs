@@ -166,8 +166,8 @@ pub fn render(surface: &dyn Surface, scene: &Scene) -> Result<Picture, RenderErr
     let start = Instant::now();
     if let Style::Combs { share } = scene.style {
         let mut depths = vec![f64::INFINITY; pixels];
-        for fragment in &shown {
-            depths[fragment.pixel as usize] = fragment.depth;
+        for (fragment, &depth) in shown.iter().zip(looked.iter().flat_map(|looked| &looked.depths)) {
+            depths[fragment.pixel as usize] = depth;
         }
         comb::draw(surface, &view, share, &depths, &mut picture.colours);
     }
@@ -281,6 +281,8 @@ struct Looked {
     looks: Vec<Look>,
     /// How many rays met the light plane.
     hits: usize,
+    /// Of what is shown, for combs: a coarse mesh lies elsewhere.
+    depths: Vec<f64>,
     /// Time for points and for colours.
     seconds: [f64; 2],
 }
@@ -305,6 +307,10 @@ impl Painter<'_> {
             _ => self.points(&solve(self.surface, &self.view, &mut spots, self.wanted())),
         };
         let solved = start.elapsed().as_secs_f64();
+        let depths = match self.scene.style {
+            Style::Combs { .. } => points.iter().map(|point| self.view.to_camera(point.position).z).collect(),
+            _ => Vec::new(),
+        };
         let mut hits = 0;
         let looks = spots
             .iter()
@@ -315,7 +321,7 @@ impl Painter<'_> {
                 self.colour(spot, fragment, point)
             })
             .collect();
-        Looked { looks, hits, seconds: [solved, start.elapsed().as_secs_f64() - solved] }
+        Looked { looks, hits, depths, seconds: [solved, start.elapsed().as_secs_f64() - solved] }
     }
 
     fn spot(&self, fragment: &Fragment) -> Spot {
@@ -539,5 +545,15 @@ impl Scene {
     pub fn of(surface: &dyn Surface, size: [u32; 2]) -> Scene {
         let camera = Camera::fit_from(THREE_QUARTER, &outline(surface), ANGLE, size);
         Scene { camera, size, style: Style::Shaded, sampling: Sampling::Exact }
+    }
+
+    /// The scene of a second surface beside the picture of a first: the same colours for the same curvature.
+    #[must_use]
+    pub fn beside(&self, first: &Picture) -> Scene {
+        let style = match self.style {
+            Style::Curvature { quantity, .. } => Style::Curvature { quantity, limit: first.limit },
+            ref style => style.clone(),
+        };
+        Scene { style, ..self.clone() }
     }
 }

@@ -240,3 +240,25 @@ fn combs_stand_where_the_surface_bends_and_is_seen() {
         assert!((0.2 * usual..2.0 * usual).contains(&hair), "{hair} beside {usual}");
     });
 }
+
+/// A ball twice as large bends half as much: with the colours of the small one it is half way from grey to the end of the scale.
+#[test]
+fn a_second_picture_has_the_colours_of_the_first() {
+    let small = shapes::cube();
+    let large = ControlMesh { points: small.points.iter().map(|&p| 2.0 * p).collect(), ..small.clone() };
+    let style = Style::Curvature { quantity: Quantity::Mean, limit: None };
+    let (scene, first) = with_view(&small, |view| {
+        let scene = Scene { style, ..Scene::of(view, [80, 80]) };
+        let first = render(view, &scene).unwrap();
+        (scene, first)
+    });
+    let camera = with_view(&large, |view| Scene::of(view, [80, 80]).camera);
+    let limit = first.limit.unwrap();
+    let second = with_view(&large, |view| render(view, &Scene { camera, ..scene.beside(&first) }).unwrap());
+    let alone = with_view(&large, |view| render(view, &Scene { camera, ..scene }).unwrap());
+    assert_eq!(second.limit, Some(limit));
+    assert!((alone.limit.unwrap() - limit / 2.0).abs() < 0.01 * limit);
+    let middle = 80 * 40 + 40;
+    let blue = |picture: &Picture| picture.colours[middle][2] / picture.colours[middle][0];
+    assert!(blue(&second) < blue(&alone) - 0.1, "{} {}", blue(&second), blue(&alone));
+}

@@ -1,6 +1,6 @@
 //! On the exact limit everything that the report measures over joints vanishes away from creases, and what it says of the
 //! surface follows the surface.
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::print_stdout, clippy::unwrap_used, reason = "a test fails by panicking, and prints figures")]
 
 mod cages;
 
@@ -49,6 +49,7 @@ fn report(mesh: &ControlMesh, field: Field) -> Report {
 #[test]
 fn smooth_joints_are_exact_in_every_cage() {
     let (mut joints, mut kinks, mut creases) = (0, 0, 0);
+    let (mut count, mut worst) = (0, [0.0_f64; 4]);
     // The two sides of a pillow lie on each other: no tangent plane along its edges.
     for (name, mesh) in cages::all().into_iter().filter(|(name, _)| name != "pillow") {
         let found = report(&mesh, light(&mesh)).continuity;
@@ -64,7 +65,12 @@ fn smooth_joints_are_exact_in_every_cage() {
         joints += smooth.count;
         kinks += smooth.kink.samples;
         creases += found.sharp.count;
+        let largest = [smooth.gap.max / mesh.size(), smooth.angle.max, smooth.curvature.max, smooth.kink.max];
+        (0..4).for_each(|k| worst[k] = worst[k].max(largest[k]));
+        count += 1;
     }
+    let [gap, angle, curvature, kink] = worst;
+    println!("{count} cages: gap {gap:.1e}, angle {angle:.1e}, curvature {curvature:.1e}, kink {kink:.1e}");
     assert!(joints > 1500 && kinks > 5000 && creases > 40, "{joints} {kinks} {creases}");
 }
 
@@ -172,6 +178,7 @@ fn curvature_grows_from_five_faces_on_and_stays_bounded_at_three() {
         let found = report(&mesh, light(&mesh)).extraordinary;
         let point = found.points.iter().find(|point| point.sector.kind == SectorKind::Interior).unwrap();
         assert_eq!((point.sector.faces, point.behaviour), (valence as usize, Behaviour::Growing));
+        println!("valence {valence}: growth {:.3}", point.growth);
         assert!((point.growth - growth).abs() < spread, "{valence}: {}", point.growth);
     }
     for mesh in [cages::disk(3), cages::cube()] {

@@ -1,16 +1,16 @@
-//! Yasui and Kanai, Surface Quality Assessment of Subdivision Surfaces on Programmable Graphics Hardware: figures 6 to 9
-//! and tables 1 and 2, and the experiment behind figures 7 and 8 in numbers.
+//! Yasui and Kanai, Surface Quality Assessment of Subdivision Surfaces on Programmable Graphics Hardware: figures 6 to 9,
+//! the experiment behind figures 7 and 8 in numbers, and tables 1 and 2, which `timing` makes.
 
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use ogee::quality::{LimitView, PlaneLight, Surface, bounding_box};
 use ogee::{ControlMesh, FaceList, Level, LimitSurface, PatchTable, Vec3, shapes};
 use ogee_render::{Camera, Image, Pattern, Sampling, Scene, Style, default_light, displacement, render};
 
+use super::timing;
 use crate::bench::report::Table;
 
 /// Samples along each side of a pixel of a figure.
@@ -27,7 +27,10 @@ pub(crate) fn write(root: &Path) -> Result<Vec<String>> {
     let large = refined(&body, 2)?;
     with_surface(&large, |surface| figure_9(&mut page, surface))?;
     with_surface(&body, |surface| experiment(&mut page, surface))?;
-    tables(&mut page, &body)?;
+    with_surface(&body, |surface| {
+        page.log.extend(timing::tables(&mut page.text, surface)?);
+        Ok(())
+    })?;
     let path = root.join("docs/reproduce/interrogation.md");
     fs::write(&path, &page.text)?;
     page.log.push(path.display().to_string());
@@ -38,7 +41,7 @@ const INTRODUCTION: &str = "\
 # Reflection lines on programmable graphics hardware
 
 Figures 6 to 9 and tables 1 and 2 of Y. Yasui and T. Kanai, *Surface Quality Assessment of Subdivision Surfaces on
-Programmable Graphics Hardware* (2004), made again by `cargo xtask reproduce interrogation`. The method is on
+Programmable Graphics Hardware* (2004), made again by `cargo xtask-gpu reproduce interrogation`. The method is on
 [its page](../methods/reflection_lines.md).
 
 The paper's models are not published. Its place is taken by `ogee::shapes::body`: 124 quads, valences 3, 4 and 5, 8 long, 4 wide and 2
@@ -205,49 +208,8 @@ fn experiment(page: &mut Page, surface: &dyn Surface) -> Result<()> {
     Ok(())
 }
 
-/// Tables 1 and 2 on the CPU.
-fn tables(page: &mut Page, body: &ControlMesh) -> Result<()> {
-    page.text += "## Tables 1 and 2: time\n\n\
-        Best and median of ten after one to warm up, milliseconds of wall time, all cores. On the CPU \"ids\" is the parameter pass with the points of its mesh; \
-        \"position\" is a step of Newton's method, more where it is not enough, and the point with second derivatives; \"colour\" is the reflection with its filter.\n\n";
-    let mut first = Table::new(&["faces drawn (table 1)", "ids, 300 x 300", "ids, 700 x 700"]);
-    with_surface(body, |surface| {
-        for level in 1..=4u32 {
-            let mut cells = vec![(124 << (2 * level)).to_string()];
-            for side in [300, 700] {
-                let scene = Scene { sampling: Sampling::Parameters(level), ..covering(surface, side) };
-                cells.push(timed(surface, &scene, |stages| stages.ids)?);
-            }
-            first.row(&cells);
-        }
-        Ok(())
-    })?;
-    writeln!(page.text, "{first}")?;
-    let mut second = Table::new(&["covered pixels (table 2)", "position", "colour", "all"]);
-    with_surface(body, |surface| {
-        for side in [300, 500, 700] {
-            let scene = covering(surface, side);
-            let pixels = render(surface, &scene)?.fragments;
-            second.row(&[
-                pixels.to_string(),
-                timed(surface, &scene, |stages| stages.position)?,
-                timed(surface, &scene, |stages| stages.colour)?,
-                timed(surface, &scene, |stages| stages.ids + stages.position + stages.colour)?,
-            ]);
-        }
-        Ok(())
-    })?;
-    writeln!(page.text, "{second}")?;
-    let threads = rayon::current_num_threads();
-    writeln!(
-        page.text,
-        "Measured on {threads} cores; [the page on performance](../performance.md) says which."
-    )?;
-    Ok(())
-}
-
 /// A view in which the surface covers all pixels.
-fn covering(surface: &dyn Surface, side: u32) -> Scene {
+pub(super) fn covering(surface: &dyn Surface, side: u32) -> Scene {
     let (light, period) = light(surface);
     let size = [side, side];
     let [_, (_, close)] = cameras(surface, size);
@@ -255,21 +217,4 @@ fn covering(surface: &dyn Surface, side: u32) -> Scene {
     let at = Vec3::new(0.0, 0.0, 1.0);
     let camera = Camera { eye: Vec3::new(-0.6, -0.4, 6.4), at, up: Vec3::new(0.0, 1.0, 0.0), ..close };
     Scene { camera, size, style: stripes(light, period), sampling: Sampling::Exact }
-}
-
-/// Best and median of ten.
-fn timed(
-    surface: &dyn Surface,
-    scene: &Scene,
-    stage: impl Fn(&ogee_render::Stages) -> f64,
-) -> Result<String> {
-    render(surface, scene)?;
-    let start = Instant::now();
-    let mut times = Vec::new();
-    while times.len() < 10 && start.elapsed().as_secs() < 60 {
-        times.push(1e3 * stage(&render(surface, scene)?.seconds));
-    }
-    times.sort_unstable_by(f64::total_cmp);
-    let best = times.first().context("at least one")?;
-    Ok(format!("{best:.1} / {:.1}", times[times.len() / 2]))
 }

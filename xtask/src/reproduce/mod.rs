@@ -1,3 +1,6 @@
 //! `cargo xtask reproduce PAPER`: a paper's figures and tables, made again.
 
+#[cfg(feature = "gpu")]
+mod adapters;
 pub(crate) mod interrogation;
+mod timing;

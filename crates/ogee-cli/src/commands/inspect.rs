@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use crate::cage::{Cage, CageArguments};
 use crate::error::{Exit, Failure, Finding};
-use crate::inspection::{Figures, PICTURE, PageOf, table};
+use crate::inspection::{Figures, PICTURE, PageOf, Second, table};
 use crate::output::Destination;
 use crate::report::{Console, bytes, count, figure};
 use crate::subject::{Subject, or_part};
@@ -23,7 +23,8 @@ Examples:
   ogee inspect cage.obj                            how smooth the limit of a cage is, and where not
   ogee convert cage.obj -o part.json               the patches of a part ..
   ogee inspect part.json --max-angle 0.01          .. exit code 1 if they meet at a larger angle
-  ogee inspect cage.obj --html report.html         a page with pictures";
+  ogee inspect cage.obj --html report.html         a page with pictures
+  ogee inspect part.json --beside cage.obj --html report.html  the same, the limit beside the patches in each";
 
 /// Measure the quality of a limit surface or of patches: gaps, angles, curvature, kinks of reflection lines
 #[derive(Debug, Args)]
@@ -34,6 +35,10 @@ pub(crate) struct Inspect {
     /// Write a page with figures and pictures that opens without a network; - for stdout
     #[arg(long, value_name = "REPORT.html")]
     html: Option<PathBuf>,
+    /// A second cage or part, such as the cage that a part came from: drawn beside the first in each picture of the page,
+    /// with the same camera, light and scale of colours
+    #[arg(long, value_name = "CAGE|PART.json", requires = "html")]
+    beside: Option<PathBuf>,
     /// Fail if two faces meet at a larger angle, in degrees, where there is no crease
     #[arg(long, value_name = "DEG", value_parser = degrees, allow_negative_numbers = true)]
     max_angle: Option<f64>,
@@ -93,7 +98,13 @@ impl Inspect {
         let progress = console.progress();
         progress.step("reading");
         let subject = Subject::read(&self.cage)?;
-        subject.check_rules(&self.cage)?;
+        let other = match &self.beside {
+            Some(file) => Some(Subject::read(&self.cage.for_file(file))?),
+            None => None,
+        };
+        if other.as_ref().is_none_or(|other| other.cage().is_none()) {
+            subject.check_rules(&self.cage)?;
+        }
         let crease_angle = self.crease_angle(&subject)?;
         if let Some(html) = &html {
             html.check()?;
@@ -122,11 +133,15 @@ impl Inspect {
                 light,
                 notes: &notes,
             };
-            let (text, fault) = subject.look(|surface| page.html(surface));
+            let (text, fault) = subject.look(|surface| match &other {
+                Some(other) => other.look(|second| {
+                    let is_limit = other.cage().is_some();
+                    page.html(surface, Some(&Second { surface: second, name: &other.name, is_limit }))
+                }),
+                None => page.html(surface, None),
+            });
             html.write(|out| out.write_all(text.as_bytes()))?;
-            notes.extend(fault.map(|fault| {
-                Finding::in_file(fault.code(), format!("the page has no pictures: {fault}"), &subject.name)
-            }));
+            notes.extend(fault);
         }
         let draw = html.is_some().then(|| start.elapsed().as_secs_f64());
         drop(progress);

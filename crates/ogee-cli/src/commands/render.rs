@@ -224,13 +224,7 @@ impl Render {
             pixels.add_legend(&scene.style, limit);
         }
         if let Some(other) = &other {
-            // The same colours for the same curvature.
-            let style = match scene.style {
-                Style::Curvature { quantity, .. } => Style::Curvature { quantity, limit: picture.limit },
-                ref style => style.clone(),
-            };
-            let scene = Scene { style, ..scene };
-            let second = self.draw(other, &scene)?.picture;
+            let second = self.draw(other, &scene.beside(&picture))?.picture;
             let mut second = second.reduced(self.samples).image();
             pixels.add_caption(&subject.file_name());
             second.add_caption(&other.file_name());

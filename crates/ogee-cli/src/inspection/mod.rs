@@ -22,10 +22,10 @@ pub(crate) use table::table;
 
 use ogee::ControlMesh;
 use ogee::quality::{Address, PlaneLight, Sector, Surface};
-use ogee_render::RenderError;
 
 use crate::error::Finding;
 use crate::report::rounded;
+use pictures::Picture;
 
 /// The page of HTML about a surface.
 pub(crate) struct PageOf<'a> {
@@ -39,18 +39,48 @@ pub(crate) struct PageOf<'a> {
     pub(crate) notes: &'a [Finding],
 }
 
+/// A surface that pictures show beside the one that was inspected.
+pub(crate) struct Second<'a> {
+    pub(crate) surface: &'a dyn Surface,
+    /// The name of its file.
+    pub(crate) name: &'a str,
+    /// Whether it is the limit of a cage, and not patches.
+    pub(crate) is_limit: bool,
+}
+
 impl PageOf<'_> {
-    /// The whole file; without pictures, and with the reason why, if there are none.
-    pub(crate) fn html(&self, surface: &dyn Surface) -> (String, Option<RenderError>) {
+    /// The whole file, with the pictures that there are, and why others are not there.
+    pub(crate) fn html(
+        &self,
+        surface: &dyn Surface,
+        beside: Option<&Second<'_>>,
+    ) -> (String, Option<Finding>) {
         let marks = marks::marks(self.figures);
-        let drawn = pictures::pictures(surface, self.figures.size, self.light, &marks);
+        let PageOf { name, figures, max_angle, light, notes } = *self;
+        let second = beside.map(|second| second.surface);
+        let drawn = pictures::pictures(surface, second, figures.size, light, &marks);
         let (pictures, fault) = match drawn {
-            Ok(pictures) => (pictures, None),
-            Err(fault) => (Vec::new(), Some(fault)),
+            Ok(pictures) => {
+                let fault = beside.and_then(|second| missing(&pictures, second.name));
+                (pictures, fault)
+            }
+            Err(fault) => {
+                let message = format!("the page has no pictures: {fault}");
+                (Vec::new(), Some(Finding::in_file(fault.code(), message, name)))
+            }
         };
-        let PageOf { name, figures, max_angle, notes, .. } = *self;
-        (page::Page { name, figures, max_angle, marks: &marks, pictures: &pictures, notes }.html(), fault)
+        let page = page::Page { name, figures, max_angle, marks: &marks, pictures: &pictures, beside, notes };
+        (page.html(), fault)
     }
+}
+
+/// The first picture that does not show the second surface, and why.
+fn missing(pictures: &[Picture], name: &str) -> Option<Finding> {
+    pictures.iter().find_map(|picture| {
+        let fault = picture.beside.as_ref()?.as_ref().err()?;
+        let message = format!("it is not in the picture \"{}\": {fault}", picture.title);
+        Some(Finding::in_file(fault.code(), message, name))
+    })
 }
 
 /// The vertex of the cage that a point is, if it is one.

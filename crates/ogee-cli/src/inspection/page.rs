@@ -7,7 +7,7 @@ use super::marks::Mark;
 use super::pictures::{Picture, SIZE};
 use super::table::{faces_of, named};
 use super::verdict::Verdict;
-use super::{chart, escape, number};
+use super::{Second, chart, escape, number};
 use crate::error::Finding;
 use crate::report::count;
 
@@ -20,14 +20,15 @@ pub(super) struct Page<'a> {
     pub(super) max_angle: Option<f64>,
     pub(super) marks: &'a [Mark],
     pub(super) pictures: &'a [Picture],
+    /// What pictures show beside it.
+    pub(super) beside: Option<&'a Second<'a>>,
     pub(super) notes: &'a [Finding],
 }
 
 impl Page<'_> {
     /// The whole file.
     pub(super) fn html(&self) -> String {
-        let name = std::path::Path::new(self.name).file_name();
-        let name = escape(&name.map_or_else(|| self.name.into(), |name| name.to_string_lossy()));
+        let name = short(self.name);
         let sections = [
             self.header(&name),
             self.cards(),
@@ -149,22 +150,48 @@ impl Page<'_> {
         if self.pictures.is_empty() {
             return String::new();
         }
-        let [width, height] = SIZE;
-        let mut html =
+        let (class, about) = match self.beside {
+            Some(_) => (
+                " pairs",
+                " Both surfaces are seen from the same place, in the same light and with the same colours.",
+            ),
+            None => ("", ""),
+        };
+        let mut html = format!(
             "<section>\n<h2>Pictures</h2>\n<p class=\"about\">Every pixel shows the exact point of the \
-                        surface.</p>\n<div class=\"pictures\">\n"
-                .to_owned();
+             surface.{about}</p>\n<div class=\"pictures{class}\">\n"
+        );
         for picture in self.pictures {
-            let Picture { title, caption, source, marks, limit } = picture;
-            let marks = if marks.is_empty() { String::new() } else { chart::marks(picture) };
+            let Picture { title, caption, limit, .. } = picture;
+            let frames = self.frames(picture);
             let scale = limit.map(chart::scale).unwrap_or_default();
             let _ = writeln!(
                 html,
-                "<figure><div class=\"frame\"><img src=\"{source}\" width=\"{width}\" height=\"{height}\" alt=\"{title}\">{marks}\
-                 </div>{scale}<figcaption><b>{title}</b>{caption}</figcaption></figure>"
+                "<figure>{frames}{scale}<figcaption><b>{title}</b>{caption}</figcaption></figure>"
             );
         }
         html + "</div>\n</section>\n"
+    }
+
+    /// What is seen of the surface, and of the second one if there is one.
+    fn frames(&self, picture: &Picture) -> String {
+        let Picture { title, source, beside, marks, .. } = picture;
+        let marks = if marks.is_empty() { String::new() } else { chart::marks(picture) };
+        let first = frame(source, title, &marks);
+        let (Some(second), Some(drawn)) = (self.beside, beside) else { return first };
+        let other = match drawn {
+            Ok(source) => frame(source, title, ""),
+            Err(error) => format!("<div class=\"frame empty\">{}</div>", escape(&error.to_string())),
+        };
+        let label = |name: &str, is_limit: bool| {
+            format!("{}, {}", short(name), if is_limit { "the limit surface" } else { "patches" })
+        };
+        format!(
+            "<div class=\"pair\"><div>{first}<p class=\"which\">{}</p></div>\
+             <div>{other}<p class=\"which\">{}</p></div></div>",
+            label(self.name, self.figures.kind == "cage"),
+            label(second.name, second.is_limit)
+        )
     }
 
     fn places(&self) -> String {
@@ -307,6 +334,20 @@ impl Page<'_> {
         };
         format!("{notes}<footer>Measured by ogee {}.</footer>\n", env!("CARGO_PKG_VERSION"))
     }
+}
+
+/// A picture and what is drawn over it.
+fn frame(source: &str, title: &str, marks: &str) -> String {
+    let [width, height] = SIZE;
+    format!(
+        "<div class=\"frame\"><img src=\"{source}\" width=\"{width}\" height=\"{height}\" alt=\"{title}\">{marks}</div>"
+    )
+}
+
+/// The name of a file without its folders.
+fn short(name: &str) -> String {
+    let last = std::path::Path::new(name).file_name();
+    escape(&last.map_or_else(|| name.into(), |last| last.to_string_lossy()))
 }
 
 /// The unit of angles.

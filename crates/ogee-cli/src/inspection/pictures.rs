@@ -17,6 +17,8 @@ pub(super) struct Picture {
     pub(super) caption: &'static str,
     /// The address of the picture: all of it.
     pub(super) source: String,
+    /// That of the second surface, if there is one, or why it is not to be seen.
+    pub(super) beside: Option<Result<String, RenderError>>,
     /// Number and place of each mark that is seen, in pixels.
     pub(super) marks: Vec<(usize, [f64; 2])>,
     /// Where the colours of a map end.
@@ -49,9 +51,10 @@ const ACROSS: Vec3 = Vec3::new(1.0, 0.0, 0.0);
 const LINES: f64 = 10.0;
 const WIDTH: f64 = 0.3;
 
-/// All pictures; `eye` is that whose reflection lines were measured under `light`.
+/// All pictures, each of a second surface too if there is one; the reflection lines are those that were measured under `light`.
 pub(super) fn pictures(
     surface: &dyn Surface,
+    beside: Option<&dyn Surface>,
     size: f64,
     light: PlaneLight,
     marks: &[Mark],
@@ -123,12 +126,18 @@ pub(super) fn pictures(
             let fine = SIZE.map(|side| SAMPLES * side);
             let scene = Scene { camera, size: fine, style, sampling: Sampling::Exact };
             let picture = render(surface, &scene)?;
-            let mut png = Vec::new();
-            // Writing into memory does not fail.
-            let _ = picture.reduced(SAMPLES).image().write_png(&mut png);
-            let source = format!("data:image/png;base64,{}", STANDARD.encode(png));
+            let beside =
+                beside.map(|second| render(second, &scene.beside(&picture)).map(|second| address(&second)));
             let marks = (1..).zip(shown).filter_map(|(number, at)| Some((number, (*at)?))).collect();
-            Ok(Picture { title, caption, source, marks, limit: picture.limit })
+            Ok(Picture { title, caption, source: address(&picture), beside, marks, limit: picture.limit })
         })
         .collect()
+}
+
+/// A picture as an address that holds all of it.
+fn address(picture: &ogee_render::Picture) -> String {
+    let mut png = Vec::new();
+    // Writing into memory does not fail.
+    let _ = picture.reduced(SAMPLES).image().write_png(&mut png);
+    format!("data:image/png;base64,{}", STANDARD.encode(png))
 }
