@@ -92,6 +92,7 @@
 mod catmull_clark;
 pub mod convert;
 mod crease;
+pub mod curve_network;
 mod limit;
 pub mod math;
 pub mod mesh;
