@@ -69,6 +69,8 @@ pub enum NetworkDefect {
          straight through; pin the crossing, or split before"
     )]
     CrossingNotRegular { curve: String, other: String, vertex: u32 },
+    #[error("there is no room for the network at vertex {vertex}; allow one more split before it is laid")]
+    Repair { vertex: u32 },
     #[error("{what} is {value}, which is not in its range; {remedy}")]
     Parameter { what: String, value: f64, remedy: &'static str },
 }
@@ -104,6 +106,7 @@ impl NetworkDefect {
             NetworkDefect::XAdjacent { .. } => "E_X_ADJACENT",
             NetworkDefect::PathValence { .. } => "E_PATH_VALENCE",
             NetworkDefect::CrossingNotRegular { .. } => "E_CROSSING_NOT_REGULAR",
+            NetworkDefect::Repair { .. } => "E_REPAIR",
             NetworkDefect::Parameter { .. } => "E_PARAMETER",
         }
     }

@@ -13,6 +13,9 @@ const ANGLE_TOLERANCE: f64 = 0.1;
 /// The least turn that a parameter passes with.
 const MARGIN: f64 = 0.02;
 
+/// Sines below this are zero.
+const ROUNDING: f64 = 1e-12;
+
 /// What is tried when the default parameter folds the surface.
 const PARAMETERS: [f64; 8] = [0.3, 0.25, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03];
 
@@ -109,10 +112,12 @@ fn warnings(site: &Site, plane: &TangentPlane, t: f64, ports: usize, sine: f64) 
     if (plane.turn_deg - 360.0).abs() > ANGLE_TOLERANCE {
         warnings.push(NetworkWarning::TangentOrder { vertex, turn_deg: plane.turn_deg });
     }
-    if sine <= 0.0 {
+    let degenerate = ports > 2 && t >= 0.5;
+    // There the smallest sine is often zero, and its sign is rounding.
+    if sine <= if degenerate { -ROUNDING } else { 0.0 } {
         warnings.push(NetworkWarning::XFold { vertex, sine });
     }
-    if ports > 2 && t >= 0.5 {
+    if degenerate {
         warnings.push(NetworkWarning::THalf { vertex, ports, t });
     }
     for (j, one) in site.arrivals.iter().enumerate() {
