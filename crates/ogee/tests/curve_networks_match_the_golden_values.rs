@@ -1,4 +1,5 @@
 //! Curves, plans, X-configurations and their matrices of `testdata/curve-networks`.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod golden;
 

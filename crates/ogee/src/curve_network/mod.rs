@@ -7,11 +7,13 @@
 //! ([`XMatrix`]) keep all of them exact; [`place()`] finds a ring that makes the surface smooth there.
 //!
 //! A [`CurveNetwork`] is data that one can build by hand. [`NetworkPlan::new`] is its gate: it names every defect, cuts the
-//! curves where they meet, and says how often the cage must be split before there is room for all.
+//! curves where they meet, and says how often the cage must be split before there is room for all. [`embed`] goes the
+//! whole way to a cage whose surface contains the curves, given that refinement knows the rules of its X-configurations.
 
 mod check;
 mod complex;
 mod defect;
+mod embed;
 mod fold;
 mod incidence;
 mod network;
@@ -19,6 +21,7 @@ mod place;
 mod plan;
 mod pre_split;
 mod repair;
+mod sectors;
 mod tangent_plane;
 mod target_curve;
 mod tridiagonal;
@@ -28,6 +31,7 @@ mod x_matrix;
 
 pub use complex::{Complex, control_point, reposition, rim_start, smooth_crossing};
 pub use defect::{NetworkDefect, NetworkError};
+pub use embed::{Embedding, XConfiguration, embed};
 pub use fold::least_turn;
 pub use network::{Crossing, CurveNetwork, MeetingOptions, NetworkCurve, NetworkOptions, Placing, PreSplit};
 pub use place::{Arrival, Placement, Site, place};

@@ -1,6 +1,7 @@
 //! What a network is told about that is no error: the surface is made, but is not all that was hoped for.
 
-/// Something about a network that the user should know. Vertices are those of the cage that was given.
+/// Something about a network that the user should know. Vertices are those of the cage after splits and repair, which keeps
+/// the numbers of the one that was given.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the message of each variant says what its fields are")]
