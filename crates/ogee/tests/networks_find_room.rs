@@ -6,7 +6,7 @@ mod golden;
 
 use golden::{documents, faces, index, list, number, points};
 use ogee::curve_network::{
-    Crossing, CurveNetwork, Embedding, NetworkCurve, Placing, PreSplit, control_point, embed,
+    Crossing, CurveNetwork, Embedding, NetworkCurve, Placing, PreSplit, XMatrix, XRing, control_point, embed,
 };
 use ogee::{ControlMesh, FaceId, FaceList, Level, Topology, Valence, Vec3, VertexId, limit_vertices, shapes};
 use proptest::prelude::*;
@@ -53,6 +53,23 @@ fn check(name: &str, mesh: &ControlMesh, network: &CurveNetwork, embedding: &Emb
         let last = segment.vertices.len() - 1;
         let control = segment.target.control();
         for (i, (&v, &[left, right])) in segment.vertices.iter().zip(sides).enumerate() {
+            let around: Vec<u32> = after.ring(VertexId(v)).map(|h| after.target(h).0).collect();
+            // Left is what comes next after the way forward, counter-clockwise, or before the way back.
+            let step = |to: u32, by: usize| {
+                let at = around.iter().position(|&u| u == to).unwrap();
+                around[(at + by) % around.len()]
+            };
+            if !after.is_boundary(VertexId(v)) {
+                let back = around.len() - 1;
+                let wanted = match segment.vertices.get(i + 1) {
+                    Some(&next) => [step(next, 1), step(next, back)],
+                    None if segment.target.is_closed() => {
+                        [step(segment.vertices[0], 1), step(segment.vertices[0], back)]
+                    }
+                    None => [step(segment.vertices[i - 1], back), step(segment.vertices[i - 1], 1)],
+                };
+                assert_eq!([left, right], wanted, "{name}: beside vertex {v}");
+            }
             if (i == 0 && segment.meets[0]) || (i == last && segment.meets[1]) {
                 assert_eq!(points[v as usize], control[i], "{name}: the centre is interpolated");
                 continue;
@@ -81,6 +98,20 @@ fn check(name: &str, mesh: &ControlMesh, network: &CurveNetwork, embedding: &Emb
         assert_eq!(turned, x.ring, "{name}: the ring of {}", x.center);
         assert!(after.ring(VertexId(x.center)).all(|h| after.face_size(after.face(h)) == 4), "{name}");
         assert!(x.ring.len() % 2 == 0 && x.ring.len() >= 4, "{name}: {x:?}");
+        let crowded = embedding.warnings.iter().any(|warning| warning.code() == "W_X_OVERLAP");
+        if network.options.placing == Placing::Eigen && !crowded {
+            let relative = |v: u32| points[v as usize] - points[x.center as usize];
+            let slices = (0..around.len()).map(|i| {
+                let slice = after.ring(VertexId(x.center)).find(|&h| after.target(h).0 == x.ring[i]).unwrap();
+                relative(after.target(after.next(slice)).0)
+            });
+            let ring =
+                XRing { ring: x.ring.iter().map(|&v| relative(v)).collect(), corners: slices.collect() };
+            let next = XMatrix::new(ring.ports(), x.parameter).refine(&ring);
+            for (a, b) in ring.ring.iter().chain(&ring.corners).zip(next.ring.iter().chain(&next.corners)) {
+                assert!((*a / 2.0).distance(*b) < 1e-12 * size, "{name}: the ring of {} is halved", x.center);
+            }
+        }
     }
     assert!(network.options.pre_split != PreSplit::Fixed(0) || embedding.splits == 0);
 }
@@ -304,4 +335,60 @@ fn nothing_is_changed_where_nothing_may_be() {
     });
     network.curves[0].vertices = vec![2, 8, 14];
     assert_eq!(embed(&network, &mesh).unwrap_err().code(), "E_PATH_VALENCE");
+}
+
+/// A grid in which the faces right of the middle vertex, 14, are one hexagon.
+fn grid_with_hexagon() -> ControlMesh {
+    let mut mesh = shapes::grid(5, 5);
+    let merged = [[14, 15, 21, 20], [15, 16, 22, 21]];
+    let mut faces = FaceList::new();
+    mesh.faces
+        .iter()
+        .filter(|face| !merged.iter().any(|gone| *face == gone))
+        .for_each(|face| faces.push(face));
+    faces.push(&[14, 15, 16, 22, 21, 20]);
+    mesh.faces = faces;
+    mesh
+}
+
+fn embedded(mesh: &ControlMesh, curves: Vec<NetworkCurve>) -> Embedding {
+    let network = CurveNetwork { curves, ..CurveNetwork::default() };
+    let embedding = embed(&network, mesh).unwrap();
+    check("by hand", mesh, &network, &embedding);
+    embedding
+}
+
+fn path(vertices: &[u32]) -> NetworkCurve {
+    NetworkCurve { name: format!("{vertices:?}"), vertices: vertices.to_vec(), ..NetworkCurve::default() }
+}
+
+#[test]
+fn a_ring_with_a_hexagon_is_no_x_configuration_yet() {
+    let embedding = embedded(&grid_with_hexagon(), vec![path(&[2, 8, 14])]);
+    assert_eq!((embedding.splits, embedding.x_configurations[0].ring.len()), (0, 4));
+}
+
+#[test]
+fn curves_side_by_side_get_a_row_between_them() {
+    let embedding =
+        embedded(&shapes::grid(5, 5), vec![path(&[2, 8, 14, 20, 26, 32]), path(&[3, 9, 15, 21, 27, 33])]);
+    assert_eq!(embedding.splits, 0);
+    assert!(embedding.mesh.points.len() > 36);
+}
+
+#[test]
+fn two_corners_of_a_chain_in_one_face_get_a_chord_each() {
+    // The hexagon lies in a sector of 200 degrees, which needs a dummy port.
+    let mesh = grid_with_hexagon();
+    let turned = |vertices: &[u32], degrees: f64| {
+        let at = |&v: &u32| mesh.points[v as usize];
+        let direction = Vec3::new(degrees.to_radians().cos(), degrees.to_radians().sin(), 0.0);
+        let mut control: Vec<Vec3> = vertices.iter().map(at).collect();
+        control[1] = control[0] + direction;
+        NetworkCurve { control: Some(control), ..path(vertices) }
+    };
+    let curves =
+        vec![turned(&[14, 15, 9, 3], 0.0), turned(&[14, 20, 26, 32], 200.0), turned(&[14, 13, 12], 280.0)];
+    let embedding = embedded(&mesh, curves);
+    assert_eq!((embedding.splits, embedding.x_configurations[0].ring.len()), (0, 8));
 }

@@ -3,7 +3,7 @@
 use super::complex::reposition;
 use super::defect::{NetworkDefect, NetworkError};
 use super::network::{CurveNetwork, Placing, PreSplit};
-use super::place::{Placement, place};
+use super::place::{Placement, Site, place};
 use super::plan::{MeetingVertex, NetworkPlan, Segment, SegmentEnd, ring_normal};
 use super::repair::{MeetingPorts, Repaired, Ribbons, TaggedPath, repair};
 use super::tangent_plane::TangentPlane;
@@ -78,11 +78,13 @@ fn embed_split(
         defects: error.defects.into_iter().map(NetworkDefect::Mesh).collect(),
     })?;
     let paths: Vec<TaggedPath> = split.segments.iter().map(path).collect();
-    let ports: Vec<MeetingPorts> = split
-        .meetings
-        .iter()
-        .map(|meeting| dummy_ports(network, &split, meeting, &topology, &cage.points))
-        .collect();
+    // Before repair and after it a point has one normal: a sector that gets a dummy port keeps it.
+    let site = |meeting: &MeetingVertex| {
+        split.site(network, meeting, ring_normal(&topology, &cage.points, meeting.vertex))
+    };
+    let sites: Vec<Site> = split.meetings.iter().map(site).collect();
+    let ports: Vec<MeetingPorts> =
+        split.meetings.iter().zip(&sites).map(|(meeting, site)| dummy_ports(&split, meeting, site)).collect();
     let ribbons = Ribbons { forced: network.options.force_ribbons, width: network.options.ribbon_width };
     let Repaired { mesh: mut room, sides, rings, overlaps, changed, .. } =
         repair(&cage, &paths, &ports, &split.smooth_crossings, ribbons)?;
@@ -97,14 +99,12 @@ fn embed_split(
     let mut warnings = plan.warnings.clone();
     warnings.extend(overlaps.into_iter().map(|vertex| NetworkWarning::XOverlap { vertex }));
     let mut x_configurations = Vec::new();
-    for (meeting, mut ring) in split.meetings.iter().zip(rings) {
+    for ((meeting, site), mut ring) in split.meetings.iter().zip(&sites).zip(rings) {
         // The first port is that of the first curve, as in the site.
         let first = ring.iter().position(|&spoke| spoke == neighbour(&split, meeting.arrivals[0]));
         ring.rotate_left(first.unwrap_or(0));
-        let normal = ring_normal(&topology, &room.points, meeting.vertex);
-        let site = split.site(network, meeting, normal);
         let fits = |placement: &Placement| placement.ring.ring.len() == ring.len();
-        let placement = place(&site).filter(fits).ok_or_else(|| NetworkError {
+        let placement = place(site).filter(fits).ok_or_else(|| NetworkError {
             defects: vec![NetworkDefect::Repair { vertex: meeting.vertex }],
         })?;
         let (segment, end) = meeting.arrivals[0];
@@ -134,14 +134,7 @@ fn end_point(segment: &Segment, end: SegmentEnd) -> Vec3 {
 }
 
 /// The dummy ports that a meeting point needs, by the neighbours its curves leave to.
-fn dummy_ports(
-    network: &CurveNetwork,
-    plan: &NetworkPlan,
-    meeting: &MeetingVertex,
-    topology: &Topology,
-    points: &[Vec3],
-) -> MeetingPorts {
-    let site = plan.site(network, meeting, ring_normal(topology, points, meeting.vertex));
+fn dummy_ports(plan: &NetworkPlan, meeting: &MeetingVertex, site: &Site) -> MeetingPorts {
     let tangents: Vec<Vec3> = site.arrivals.iter().map(|arrival| arrival.tangent).collect();
     let plane = TangentPlane::new(&tangents, site.ring_normal, site.options.normal);
     let counts = plane.map(|plane| plane.dummies()).unwrap_or_default();
