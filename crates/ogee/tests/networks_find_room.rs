@@ -337,16 +337,13 @@ fn nothing_is_changed_where_nothing_may_be() {
     assert_eq!(embed(&network, &mesh).unwrap_err().code(), "E_PATH_VALENCE");
 }
 
-/// A grid in which the faces right of the middle vertex, 14, are one hexagon.
-fn grid_with_hexagon() -> ControlMesh {
+/// A grid in which so many faces right of the middle vertex, 14, are one polygon.
+fn grid_with_polygon(merged: u32) -> ControlMesh {
     let mut mesh = shapes::grid(5, 5);
-    let merged = [[14, 15, 21, 20], [15, 16, 22, 21]];
+    let gone: Vec<[u32; 4]> = (14..14 + merged).map(|v| [v, v + 1, v + 7, v + 6]).collect();
     let mut faces = FaceList::new();
-    mesh.faces
-        .iter()
-        .filter(|face| !merged.iter().any(|gone| *face == gone))
-        .for_each(|face| faces.push(face));
-    faces.push(&[14, 15, 16, 22, 21, 20]);
+    mesh.faces.iter().filter(|face| !gone.iter().any(|gone| *face == gone)).for_each(|face| faces.push(face));
+    faces.push(&(14..=14 + merged).chain((20..=20 + merged).rev()).collect::<Vec<u32>>());
     mesh.faces = faces;
     mesh
 }
@@ -364,7 +361,7 @@ fn path(vertices: &[u32]) -> NetworkCurve {
 
 #[test]
 fn a_ring_with_a_hexagon_is_no_x_configuration_yet() {
-    let embedding = embedded(&grid_with_hexagon(), vec![path(&[2, 8, 14])]);
+    let embedding = embedded(&grid_with_polygon(2), vec![path(&[2, 8, 14])]);
     assert_eq!((embedding.splits, embedding.x_configurations[0].ring.len()), (0, 4));
 }
 
@@ -378,8 +375,8 @@ fn curves_side_by_side_get_a_row_between_them() {
 
 #[test]
 fn two_corners_of_a_chain_in_one_face_get_a_chord_each() {
-    // The hexagon lies in a sector of 200 degrees, which needs a dummy port.
-    let mesh = grid_with_hexagon();
+    // The octagon lies in a sector of 200 degrees, which needs a dummy port.
+    let mesh = grid_with_polygon(3);
     let turned = |vertices: &[u32], degrees: f64| {
         let at = |&v: &u32| mesh.points[v as usize];
         let direction = Vec3::new(degrees.to_radians().cos(), degrees.to_radians().sin(), 0.0);
