@@ -72,6 +72,7 @@
 //! | [`nurbs`] | knots, curves, surfaces of any degree, shells |
 //! | [`stam`] | the limit surface a second time, by eigenvectors, at smooth interior vertices |
 //! | [`pccm`] | one smooth patch per quad, and packing them into few |
+//! | [`curve_network`] | curves that the surface is to contain: which can be, where they meet, room for them in the cage |
 //! | [`quality`] | measuring instruments: reflected rays, lines on the surface, continuity |
 //! | [`convert`] | the whole journey from a cage to a part, with its figures |
 //!
@@ -92,7 +93,7 @@
 mod catmull_clark;
 pub mod convert;
 mod crease;
-mod curve_network;
+pub mod curve_network;
 mod limit;
 pub mod math;
 pub mod mesh;
