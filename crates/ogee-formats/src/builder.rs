@@ -6,7 +6,8 @@
 use std::collections::HashMap;
 
 use ogee::{
-    ControlMesh, Corner, Crease, FaceList, FaceVarying, FaceVaryingRule, Place, Scheme, Sharpness, Vec3,
+    ControlMesh, Corner, Crease, FaceList, FaceVarying, FaceVaryingRule, Meeting, Place, Scheme, Sharpness,
+    Vec3,
 };
 
 use crate::cage::CageFile;
@@ -35,6 +36,7 @@ pub(crate) enum Tag {
     Crease { ends: [i64; 2], sharpness: f64 },
     Corner { vertex: i64, sharpness: f64 },
     Hole { face: i64 },
+    Meeting { vertex: i64, ports: Vec<i64>, t: f64 },
 }
 
 /// Texture coordinates and, for each corner of each face, which one it has.
@@ -192,6 +194,9 @@ impl CageBuilder {
                 Tag::Corner { vertex, sharpness } => {
                     mesh.corners.extend(self.corner(line, vertex, sharpness));
                 }
+                Tag::Meeting { vertex, ports, t } => {
+                    mesh.meetings.extend(self.meeting(line, vertex, &ports, t));
+                }
                 Tag::Hole { face } => match within(face, self.faces.len()) {
                     Some(face) => mesh.holes.push(face),
                     None => {
@@ -230,6 +235,18 @@ impl CageBuilder {
         let place = Place::Vertex(known);
         let sharpness = self.sharpness(line, sharpness, || format!("corner {vertex}"), place)?;
         Some(Corner { vertex: known, sharpness })
+    }
+
+    fn meeting(&mut self, line: Option<u32>, vertex: i64, ports: &[i64], t: f64) -> Option<Meeting> {
+        let count = self.points.len();
+        let missing = std::iter::once(&vertex).chain(ports).find(|&&v| within(v, count).is_none());
+        if let Some(missing) = missing {
+            let message = format!("meeting {vertex} names vertex {missing}, the file has {count}");
+            self.faults.push(Fault::new("meeting_off_vertex", message).on_line(line));
+            return None;
+        }
+        let ports = ports.iter().filter_map(|&port| within(port, count)).collect();
+        Some(Meeting { vertex: within(vertex, count)?, ports, t })
     }
 
     fn sharpness(

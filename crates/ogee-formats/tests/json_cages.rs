@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot unwrap has failed")]
 
-use ogee::{Boundary, Creasing, FaceVaryingRule, Place, Sharpness, Vec3};
+use ogee::{Boundary, Creasing, FaceVaryingRule, Meeting, Place, Sharpness, Vec3};
 use ogee_formats::{CageFile, CageFormat, ReadError, read_cage};
 
 const SHAPE: &str = r#""vertices": [[0,0,0],[1,0,0],[1,1,0],[0,1.5,0]], "faces": [[0,1,2],[0,2,3]]"#;
@@ -27,7 +27,8 @@ fn the_two_mandatory_keys() {
 fn every_key() {
     let file = read(&format!(
         r#"{{"face_varying": "boundaries", "face_uvs": [[0,1,2],[2,1,0]], "uvs": [[0,0],[1,0],[0.5,1]],
-            "holes": [1], "creasing": "chaikin", "boundary": "edge-only", "meetings": [], "lens": {{}},
+            "holes": [1], "creasing": "chaikin", "boundary": "edge-only", "lens": {{}},
+            "meetings": [{{"vertex":2,"ports":[3,0],"t":0.25}}],
             "corners": [{{"vertex":3,"sharpness":10}}],
             "creases": [{{"vertices":[2,0],"sharpness":2.5}},{{"sharpness":"infinite","vertices":[0,1]}}],
             {SHAPE} }}"#
@@ -36,6 +37,7 @@ fn every_key() {
     assert_eq!(creases, [([2, 0], Sharpness::Finite(2.5)), ([0, 1], Sharpness::Infinite)]);
     assert_eq!((file.mesh.corners[0].vertex, file.mesh.corners[0].sharpness), (3, Sharpness::Infinite));
     assert_eq!(file.mesh.holes, [1]);
+    assert_eq!(file.mesh.meetings, [Meeting { vertex: 2, ports: vec![3, 0], t: 0.25 }]);
     assert_eq!(file.mesh.scheme.boundary, Boundary::EdgeOnly);
     assert_eq!(file.mesh.scheme.creasing, Creasing::Chaikin);
     let uv = file.mesh.uv.unwrap();
@@ -61,9 +63,9 @@ fn unknown_keys_are_warned_about() {
 
 #[test]
 fn other_rules_are_refused() {
-    let error = refuse(&format!(r#"{{"meetings":[{{"vertex":0}}],"lens":{{"beta":0.5}},{SHAPE}}}"#));
+    let error = refuse(&format!(r#"{{"lens":{{"beta":0.5}},{SHAPE}}}"#));
     let codes: Vec<_> = error.faults.iter().map(|fault| fault.code).collect();
-    assert_eq!(codes, ["unsupported_meetings", "unsupported_lens"]);
+    assert_eq!(codes, ["unsupported_lens"]);
     assert!(error.to_string().contains("this build does not support"));
 }
 
@@ -148,6 +150,12 @@ fn mistakes_of_content_are_told_with_their_place() {
             "corner names vertex 4, the file has 4",
         ),
         (shape("\"holes\":[2]"), "hole_off_face", None, "hole names face 2, the file has 2"),
+        (
+            shape("\"meetings\":[{\"vertex\":0,\"ports\":[1,9],\"t\":0.3}]"),
+            "meeting_off_vertex",
+            None,
+            "meeting 0 names vertex 9, the file has 4",
+        ),
         (
             shape("\"boundary\":\"both\""),
             "unknown_name",

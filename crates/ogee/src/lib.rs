@@ -72,6 +72,7 @@
 //! | [`nurbs`] | knots, curves, surfaces of any degree, shells |
 //! | [`stam`] | the limit surface a second time, by eigenvectors, at smooth interior vertices |
 //! | [`pccm`] | one smooth patch per quad, and packing them into few |
+//! | [`curve_network`] | curves that the surface is to contain: which can be, where they meet, room for them in the cage |
 //! | [`quality`] | measuring instruments: reflected rays, lines on the surface, continuity |
 //! | [`convert`] | the whole journey from a cage to a part, with its figures |
 //!
@@ -92,6 +93,7 @@
 mod catmull_clark;
 pub mod convert;
 mod crease;
+pub mod curve_network;
 mod limit;
 pub mod math;
 pub mod mesh;
@@ -111,8 +113,8 @@ pub use limit::{
 pub use math::{Curvature, Grid, Interpolate, SurfaceJet, Vec3};
 pub use mesh::{
     Boundary, ControlMesh, Corner, Crease, Creasing, Defect, EdgeId, FaceId, FaceList, FaceVarying,
-    FaceVaryingRule, HalfedgeId, Note, Place, Scheme, Sharpness, Statistics, Topology, TopologyError,
-    Valence, VertexId, shapes,
+    FaceVaryingRule, HalfedgeId, Meeting, Note, Place, Scheme, Sharpness, Statistics, Topology,
+    TopologyError, Valence, VertexId, shapes,
 };
 pub use patch::{Location, LocationError, ParametricFace, PatchStatistics, PatchTable};
 pub use refine::{FineMesh, Refinement, Step, TooDeep};

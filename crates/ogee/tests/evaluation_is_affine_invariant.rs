@@ -142,6 +142,10 @@ fn renumbered(mesh: &ControlMesh) -> (ControlMesh, Vec<FaceId>, Vec<u32>) {
     }
     other.creases.iter_mut().for_each(|crease| crease.vertices = crease.vertices.map(vertex));
     other.corners.iter_mut().for_each(|corner| corner.vertex = vertex(corner.vertex));
+    for meeting in &mut other.meetings {
+        meeting.vertex = vertex(meeting.vertex);
+        meeting.ports.iter_mut().for_each(|port| *port = vertex(*port));
+    }
     other.holes.iter_mut().for_each(|hole| *hole = where_to[*hole as usize].0);
     (other, where_to, turns)
 }

@@ -181,7 +181,10 @@ fn may_end(view: &dyn Surface, at: Location) -> bool {
 fn isophotes_end_only_at_borders_and_sharp_creases() {
     let (mut open, mut closed) = (0, 0);
     // The rim of two faces on the same four vertices is a fold, where normals leap; so they may at a sharp vertex.
-    let has_leaps = |name: &str, mesh: &ControlMesh| name == "pillow" || !mesh.corners.is_empty();
+    // And where curves meet that are not in a plane.
+    let has_leaps = |name: &str, mesh: &ControlMesh| {
+        name == "pillow" || !mesh.corners.is_empty() || !mesh.meetings.is_empty()
+    };
     for (name, mesh) in cages::all().into_iter().filter(|(name, mesh)| !has_leaps(name, mesh)) {
         with_view(&mesh, |view| {
             let (_, field, levels) = every_field(view).swap_remove(2);

@@ -5,12 +5,13 @@
 //!   "faces": [[0, 1, 2]],
 //!   "creases": [{"vertices": [0, 1], "sharpness": 2.5}],
 //!   "corners": [{"vertex": 2, "sharpness": "infinite"}],
-//!   "boundary": "edge-and-corner", "creasing": "uniform", "holes": [],
+//!   "boundary": "edge-and-corner", "creasing": "uniform", "holes": [], "meetings": [],
 //!   "uvs": [[0, 0], [1, 0], [0, 1]], "face_uvs": [[0, 1, 2]], "face_varying": "corners-plus1" }
 //! ```
 //!
 //! of which only the first two have to be there. Everything is numbered from 0; a sharpness of 10 or more never
-//! fades. Cages with curve meetings or lens shapes are refused: they follow other rules than these.
+//! fades. A meeting of curves is `{"vertex": v, "ports": [a, b, ..], "t": 0.25}`, neighbours counter-clockwise. Cages with lens
+//! shapes are refused: they follow other rules than these.
 
 mod names;
 mod parse;

@@ -18,8 +18,7 @@ pub(super) struct RawCage {
     pub(super) uvs: Option<Vec<Numbers<2>>>,
     pub(super) face_uvs: Option<Vec<Vec<i64>>>,
     pub(super) face_varying: Option<String>,
-    /// True if there is something in `meetings`.
-    pub(super) has_meetings: Option<Filled>,
+    pub(super) meetings: Option<Vec<RawMeeting>>,
     /// True if there is something in `lens`.
     pub(super) has_lens: Option<Filled>,
     pub(super) unknown: Vec<String>,
@@ -35,6 +34,13 @@ pub(super) struct RawCrease {
 pub(super) struct RawCorner {
     pub(super) vertex: i64,
     pub(super) sharpness: RawSharpness,
+}
+
+#[derive(Deserialize)]
+pub(super) struct RawMeeting {
+    pub(super) vertex: i64,
+    pub(super) ports: Vec<i64>,
+    pub(super) t: f64,
 }
 
 /// A number, or the word `infinite` as infinity.
@@ -73,7 +79,7 @@ impl<'de> Deserialize<'de> for RawCage {
                         "uvs" => once(&mut cage.uvs, &mut map, "uvs")?,
                         "face_uvs" => once(&mut cage.face_uvs, &mut map, "face_uvs")?,
                         "face_varying" => once(&mut cage.face_varying, &mut map, "face_varying")?,
-                        "meetings" => once(&mut cage.has_meetings, &mut map, "meetings")?,
+                        "meetings" => once(&mut cage.meetings, &mut map, "meetings")?,
                         "lens" => once(&mut cage.has_lens, &mut map, "lens")?,
                         _ => {
                             map.next_value::<IgnoredAny>()?;

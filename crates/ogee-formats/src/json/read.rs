@@ -49,10 +49,6 @@ fn syntax(error: &serde_json::Error) -> Fault {
 }
 
 fn refuse_other_rules(cage: &mut CageBuilder, raw: &RawCage) {
-    if matches!(raw.has_meetings, Some(Filled(true))) {
-        let message = "the cage has curve meetings (\"meetings\"), which this build does not support";
-        cage.faults.push(Fault::new("unsupported_meetings", message));
-    }
     if matches!(raw.has_lens, Some(Filled(true))) {
         let message = "the cage has a lens shape (\"lens\"), which this build does not support";
         cage.faults.push(Fault::new("unsupported_lens", message));
@@ -82,6 +78,10 @@ fn tags(cage: &mut CageBuilder, raw: &RawCage) {
     }
     for &face in raw.holes.iter().flatten() {
         cage.tag(None, Tag::Hole { face });
+    }
+    for meeting in raw.meetings.iter().flatten() {
+        let ports = meeting.ports.clone();
+        cage.tag(None, Tag::Meeting { vertex: meeting.vertex, ports, t: meeting.t });
     }
     if let Some(boundary) = known(cage, "boundary", &raw.boundary, &BOUNDARIES) {
         cage.scheme.boundary = boundary;

@@ -19,7 +19,9 @@ pub fn write_cage(mesh: &ControlMesh, out: impl Write) -> io::Result<()> {
     let sharpness = mesh.creases.iter().map(|crease| crease.sharpness);
     let sharpness = sharpness.chain(mesh.corners.iter().map(|corner| corner.sharpness));
     let is_number = |sharpness: Sharpness| !sharpness.value().is_nan();
-    if !points.chain(uvs.copied()).all(f64::is_finite) || !sharpness.into_iter().all(is_number) {
+    let shapes = mesh.meetings.iter().map(|meeting| meeting.t);
+    if !points.chain(uvs.copied()).chain(shapes).all(f64::is_finite) || !sharpness.into_iter().all(is_number)
+    {
         return Err(io::Error::new(
             io::ErrorKind::InvalidInput,
             "JSON has no way to write a number not finite",
@@ -50,6 +52,16 @@ pub fn write_cage(mesh: &ControlMesh, out: impl Write) -> io::Result<()> {
     let creasing = name(&CREASINGS, &mesh.scheme.creasing);
     write!(out, ",\n\"boundary\": \"{boundary}\",\n\"creasing\": \"{creasing}\",\n\"holes\": ")?;
     write!(out, "{}", Indices(&mesh.holes))?;
+    if !mesh.meetings.is_empty() {
+        write!(out, ",\n\"meetings\": ")?;
+        list(
+            &mut out,
+            mesh.meetings.iter().map(|meeting| {
+                let (ports, t) = (Indices(&meeting.ports), Shortest(meeting.t));
+                format!("{{\"vertex\":{},\"ports\":{ports},\"t\":{t}}}", meeting.vertex)
+            }),
+        )?;
+    }
     if let Some(uv) = &mesh.uv {
         let faces = mesh.faces.starts().windows(2).map(|ends| {
             let range = ends[0] as usize..ends[1] as usize;

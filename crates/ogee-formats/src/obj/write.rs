@@ -8,7 +8,8 @@ use crate::number::Shortest;
 
 /// Writes a cage, each line of `comment` as a comment at the top.
 ///
-/// A sharpness that never fades is written as 10, the least that does not.
+/// A sharpness that never fades is written as 10, the least that does not. Meetings of curves have no place in OBJ and are left
+/// out; JSON has them.
 ///
 /// # Errors
 /// Those of `out`.

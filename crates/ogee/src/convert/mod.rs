@@ -11,7 +11,7 @@ mod sew;
 pub use part::{Body, Method, Part, Report};
 
 use crate::math::{Grid, Vec3, par};
-use crate::mesh::{ControlMesh, FaceId, HalfedgeId, Note, TopologyError, notes};
+use crate::mesh::{ControlMesh, FaceId, HalfedgeId, Meeting, Note, TopologyError, notes};
 use crate::nurbs::{FaceAddress, KnotVector, NurbsSurface};
 use crate::pccm::{self, Layer, PccmError, Pieces, least_level, pack, unpacked};
 use crate::refine::TooDeep;
@@ -71,6 +71,14 @@ pub enum ConvertError {
     /// The method has no rule for it.
     #[error(transparent)]
     Pccm(#[from] PccmError),
+    /// No method has a rule where curves meet.
+    #[error(
+        "curves meet at vertex {vertex}, where no method has patches; take the meeting away, or refine the cage instead"
+    )]
+    Meeting {
+        /// The vertex.
+        vertex: u32,
+    },
     /// It does not fit.
     #[error(transparent)]
     TooDeep(#[from] TooDeep),
@@ -101,6 +109,7 @@ impl ConvertError {
         match self {
             ConvertError::Topology(error) => error.defects[0].code(),
             ConvertError::Pccm(error) => error.code(),
+            ConvertError::Meeting { .. } => "meeting",
             ConvertError::TooDeep(_) => "too_deep",
             ConvertError::NoSurface => "no_surface",
             ConvertError::LevelTooHigh { .. } => "level_too_high",
@@ -123,6 +132,9 @@ impl ConvertError {
 /// If the cage has defects, a vertex that the method has no rule for, or asks for more than a level can give.
 pub fn to_part(mesh: &ControlMesh, options: &Options) -> Result<Part, ConvertError> {
     let source = Source::new(mesh, options.up)?;
+    if let Some(&Meeting { vertex, .. }) = mesh.meetings.first() {
+        return Err(ConvertError::Meeting { vertex });
+    }
     if source.quads.hidden_faces().len() == source.quads.topology().face_count() {
         return Err(ConvertError::NoSurface);
     }

@@ -9,7 +9,7 @@ use super::walk::{Walk, wide};
 use super::{Derivatives, Flags};
 use crate::math::simd::{self, Four};
 use crate::math::{Vec3, par};
-use crate::patch::{Location, PatchTable, Piece, Tail, Wide};
+use crate::patch::{Location, PatchTable, Piece, Tail, Wide, child};
 
 /// Samples that one task works through, and sorts where that helps.
 const CHUNK: usize = 8192;
@@ -247,8 +247,7 @@ impl<'a> Worker<'a> {
             if step == 0 {
                 self.vertex(tail, number, &items[start..end], out);
             } else {
-                self.tile(Tile { tail, number, step, beyond: 0, tile, depth: 0 });
-                self.group.evaluate(self.batch.what, &items[start..end], out);
+                self.on_tile(Tile { tail, number, step, beyond: 0, tile, depth: 0 }, &items[start..end], out);
             }
         }
     }
@@ -287,7 +286,7 @@ impl<'a> Worker<'a> {
     fn piece(&mut self, patch: Patch<'_>, items: &[Item], out: &mut Out<'_>) {
         match patch {
             Patch::Leaf { sources, depth } => self.leaf(sources, depth),
-            Patch::Tile(tile) => self.tile(tile),
+            Patch::Tile(tile) => return self.on_tile(tile, items, out),
             Patch::Vertex { tail, number } => return self.vertex(tail, number, items, out),
         }
         self.group.evaluate(self.batch.what, items, out);
@@ -301,6 +300,25 @@ impl<'a> Worker<'a> {
         self.group.base = base;
         self.group.scales = [1.0, scale, scale * scale];
         self.group.flags = Flags::NONE;
+    }
+
+    /// Samples of a tile, which is one patch, or four.
+    fn on_tile(&mut self, tile: Tile, items: &[Item], out: &mut Out<'_>) {
+        if !self.batch.table.basis(tile.tail).has_quarters() {
+            self.tile(tile);
+            return self.group.evaluate(self.batch.what, items, out);
+        }
+        for quarter in 0..4 {
+            let within = items.iter().filter_map(|&Item { u, v, index }| {
+                let (own, u, v) = child(u, v);
+                (own == quarter).then_some(Item { u, v, index })
+            });
+            let some: Vec<Item> = within.collect();
+            if !some.is_empty() {
+                self.tile(tile.quarter(quarter));
+                self.group.evaluate(self.batch.what, &some[..], out);
+            }
+        }
     }
 
     fn tile(&mut self, Tile { tail, number, step, beyond, tile, depth }: Tile) {

@@ -107,7 +107,7 @@ impl Place {
         let mut bounds = Bounds::EMPTY;
         for step in 1..=STEPS {
             walk.go(table, points, number, tail, step);
-            for tile in 0..3 {
+            for tile in 0..basis.tiles.len() {
                 let net = walk.control_net(basis, tile);
                 bounds = bounds.with(moved(Bounds::of(bezier(&net)), walk.base()));
             }
@@ -195,10 +195,18 @@ struct Patch {
     /// That point, relative to the given one.
     offset: Vec3,
     place: Place,
-    /// Corner, step and tile of a chain.
-    tile: Option<(u32, i32, usize)>,
+    /// Where it is a tile of a chain.
+    cell: Option<Cell>,
     /// What rounding may do to squares of distances.
     noise: f64,
+}
+
+/// A tile of a chain in the frame of its corner.
+#[derive(Clone, Copy)]
+struct Cell {
+    corner: u32,
+    origin: [f64; 2],
+    width: f64,
 }
 
 impl Patch {
@@ -208,10 +216,10 @@ impl Patch {
     }
 
     fn location(&self, [x, y]: [f64; 2]) -> Location {
-        let Some((corner, step, tile)) = self.tile else { return self.place.location([x, y]) };
-        let [i, j] = [[1.0, 0.0], [1.0, 1.0], [0.0, 1.0]][tile];
-        let width = 0.5_f64.powi(step);
-        self.place.location(from_corner(corner, width * (i + x), width * (j + y)).into())
+        let Some(Cell { corner, origin: [i, j], width }) = self.cell else {
+            return self.place.location([x, y]);
+        };
+        self.place.location(from_corner(corner, i + width * x, j + width * y).into())
     }
 }
 
@@ -310,9 +318,12 @@ impl<'a> Search<'a> {
                 return;
             }
             self.walk.go(table, points, number, tail, step);
-            for tile in 0..3 {
+            for tile in 0..basis.tiles.len() {
                 let net = self.walk.control_net(basis, tile);
-                self.patch(&net, self.walk.base(), place, Some((corner, step, tile)));
+                let (origin, width) = basis.tile_cell(tile);
+                let scale = 0.5_f64.powi(step);
+                let cell = Cell { corner, origin: origin.map(|at| scale * at), width: scale * width };
+                self.patch(&net, self.walk.base(), place, Some(cell));
             }
         }
     }
@@ -364,7 +375,7 @@ impl<'a> Search<'a> {
         self.set_limit();
     }
 
-    fn patch(&mut self, net: &Net, base: Wide, place: Place, tile: Option<(u32, i32, usize)>) {
+    fn patch(&mut self, net: &Net, base: Wide, place: Place, cell: Option<Cell>) {
         /// Of the largest coefficient: some dozen roundings.
         const NOISE: f64 = 1e-15;
         let scale = self.scale;
@@ -376,7 +387,7 @@ impl<'a> Search<'a> {
         }
         let square = Square::of_distance(&bezier);
         let net = bicubic::coefficients_of(&net);
-        let patch = Patch { net, offset, place, tile, noise: NOISE * square.size() };
+        let patch = Patch { net, offset, place, cell, noise: NOISE * square.size() };
         self.cell(&patch, &square, [[0.0, 1.0]; 2]);
         self.start_parts();
     }

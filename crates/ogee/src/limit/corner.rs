@@ -35,6 +35,11 @@ pub(super) fn at_corner(
         tangents = [tangents[1], tangents[0]];
         normal = normal.map(|n| -n);
     }
+    if let (Kind::Meeting { .. }, Some(normal)) = (basis.kind, normal)
+        && !walk.agree_on(normal, basis)
+    {
+        flags = flags.with(Flags::NORMAL_ONE_SIDED);
+    }
     if normal.is_none() {
         flags = flags.with(Flags::NORMAL_UNDEFINED);
     }
@@ -53,6 +58,7 @@ fn flags_at(basis: &ChainBasis) -> Flags {
     let (one_sided, unbounded) = match basis.kind {
         Kind::Smooth { valence } => (valence < 3, valence > 4),
         Kind::Cone { .. } => (true, true),
+        Kind::Meeting { .. } => (false, true),
         Kind::Dart { .. } => (basis.tangents.is_none(), true),
         Kind::Crease { faces, .. } => (faces > 3, faces > 2),
         Kind::Corner { faces, .. } => (faces > 2, faces > 2),

@@ -5,7 +5,7 @@ use super::LimitSurface;
 use super::corner::at_corner;
 use super::walk::{Walk, add, last_step, narrow, wide};
 use crate::math::Vec3;
-use crate::patch::{Piece, TURNED, Tail};
+use crate::patch::{Piece, TURNED, Tail, from_corner};
 
 /// Control points of one bicubic patch, `i + 4 j`, `i` along `u`: a uniform B-spline over the inner cell of a grid.
 pub type PatchNet = [Vec3; 16];
@@ -70,7 +70,13 @@ impl LimitSurface<'_> {
     fn piece(&self, piece: Piece, least: f64) -> FacePiece {
         match piece {
             Piece::Leaf(leaf) => FacePiece::Leaf(self.net(self.table().leaf(leaf))),
-            Piece::Tail(number) => FacePiece::Tail(self.tail(number, self.table().tail(number), least)),
+            Piece::Tail(number) => {
+                let tail = self.table().tail(number);
+                match self.table().basis(tail).has_quarters() {
+                    true => self.meeting(number, tail, least),
+                    false => FacePiece::Tail(self.tail(number, tail, least)),
+                }
+            }
             Piece::Split(split) => FacePiece::Split(Box::new(
                 self.table().split(split).map(|node| self.piece(node.piece(), least)),
             )),
@@ -107,13 +113,48 @@ impl LimitSurface<'_> {
             steps: (1..=count).map(nets).collect(),
         }
     }
+
+    /// A face at a meeting of curves. A tile of its chain is four patches, so it is split again and again; what is left at the
+    /// end is taken for a plane.
+    fn meeting(&self, number: u32, tail: Tail, least: f64) -> FacePiece {
+        let (table, points) = (self.table(), self.points());
+        let basis = table.basis(tail);
+        let mut walk = Walk::default();
+        let corner = at_corner(&mut walk, table, points, number, tail);
+        let count = ((least.ln() / 0.5_f64.ln()).ceil() as i32).clamp(1, last_step(basis));
+        let turned = &TURNED[tail.corner as usize];
+        let from_own = |quarter: usize| (quarter + 4 - tail.corner as usize) % 4;
+        let shrunk = 0.5_f64.powi(count);
+        let mut inner = FacePiece::Leaf(std::array::from_fn(|k| {
+            let (i, j) = ((k % 4) as f64 - 1.0, (k / 4) as f64 - 1.0);
+            let (u, v) = from_corner(tail.corner, 0.0, 0.0);
+            corner.position + shrunk * ((i - u) * corner.du + (j - v) * corner.dv)
+        }));
+        for step in (1..=count).rev() {
+            walk.go(table, points, number, tail, step);
+            let base = walk.base();
+            let leaf = |tile: usize| {
+                let net = walk.control_net(basis, tile);
+                FacePiece::Leaf(std::array::from_fn(|k| narrow(add(net[usize::from(turned[k])], base))))
+            };
+            let mut own = Some(inner);
+            let quarters = [0, 1, 2, 3].map(|quarter| match from_own(quarter) {
+                0 => own.take().unwrap_or_else(|| unreachable!("one of four is at the corner")),
+                tile => FacePiece::Split(Box::new(
+                    [0, 1, 2, 3].map(|smaller| leaf(4 * (tile - 1) + from_own(smaller))),
+                )),
+            });
+            inner = FacePiece::Split(Box::new(quarters));
+        }
+        inner
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::bicubic::basis;
     use super::*;
-    use crate::mesh::{Crease, Sharpness, shapes};
+    use crate::mesh::{Crease, Meeting, Sharpness, shapes};
     use crate::patch::{from_corner, to_corner};
     use crate::rules::Level;
     use crate::{Location, PatchTable, SurfacePoint};
@@ -164,8 +205,11 @@ mod tests {
         creased.creases.push(Crease { vertices: [0, 1], sharpness: Sharpness::Infinite });
         let mut faded = shapes::cube();
         faded.creases.push(Crease { vertices: [0, 1], sharpness: Sharpness::Finite(1.5) });
+        let mut met = shapes::disk(6, 2);
+        let ports = met.faces.iter().step_by(8).map(|face| face[1]).collect();
+        met.meetings.push(Meeting { vertex: 0, ports, t: 0.3 });
         let mut kinds = [0; 3];
-        for mesh in [shapes::studded_torus(12, 8, 4), faded, creased] {
+        for mesh in [shapes::studded_torus(12, 8, 4), faded, creased, met] {
             let table = PatchTable::new(&Level::new(&mesh).unwrap());
             let surface = LimitSurface::new(&table, &mesh.points);
             for face in 0..table.len() {

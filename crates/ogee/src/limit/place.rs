@@ -20,6 +20,7 @@ pub(super) enum Patch<'a> {
 }
 
 /// A tile of a tail.
+#[derive(Clone, Copy)]
 pub(super) struct Tile {
     pub(super) tail: Tail,
     /// The number of the tail.
@@ -53,6 +54,15 @@ pub(super) fn key(table: &PatchTable, root: u32, u: f64, v: f64) -> (u64, f64, f
             (head(1, number) | low, u, v)
         }
         Piece::Split(_) => unreachable!("one descends to a leaf or a tail"),
+    }
+}
+
+impl Tile {
+    /// A quarter of it, counted in the directions of the piece, where that is a patch of its own.
+    pub(super) fn quarter(self, quarter: usize) -> Tile {
+        // Its number is that in the frame of the corner.
+        let own = (quarter + 4 - self.tail.corner as usize) % 4;
+        Tile { tile: 4 * self.tile + own, depth: self.depth + 1, ..self }
     }
 }
 

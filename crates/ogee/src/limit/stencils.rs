@@ -6,7 +6,7 @@ use super::Derivatives;
 use super::bicubic::basis;
 use super::place::{Patch, Tile, power_of_two};
 use crate::math::par;
-use crate::patch::{ChainBasis, Location, PatchTable, TURNED, Tail};
+use crate::patch::{ChainBasis, Location, PatchTable, TURNED, Tail, child};
 use crate::stencil::{StencilTable, join};
 
 /// Weights of position, `du`, `dv`, `duu`, `duv`, `dvv` on some points.
@@ -66,6 +66,10 @@ impl Writer<'_> {
                     &sources[..],
                     scaled(net_weights(x, y).map(|part| part.to_vec()), [1.0, scale, scale * scale]),
                 )
+            }
+            Patch::Tile(tile) if table.basis(tile.tail).has_quarters() => {
+                let (quarter, x, y) = child(x, y);
+                (table.ring(tile.tail), self.tile(&tile.quarter(quarter), x, y))
             }
             Patch::Tile(tile) => (table.ring(tile.tail), self.tile(&tile, x, y)),
             Patch::Vertex { tail, .. } => (table.ring(tail), vertex(table, tail)),

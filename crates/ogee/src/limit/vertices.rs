@@ -1,10 +1,11 @@
 //! Limit position and normal of every vertex of a level.
 
+use crate::curve_network::rule::Slice;
 use crate::math::{Vec3, par};
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::patch::dart::Dart;
 use crate::patch::masks::{self, Frame};
-use crate::patch::{Neighbourhood, with_ring};
+use crate::patch::{Kind, Neighbourhood, with_ring};
 use crate::rules::Level;
 
 /// Where a vertex ends up, and which way the surface faces there.
@@ -39,6 +40,12 @@ pub(crate) fn limit_vertex(level: &Level, points: &[Vec3], v: VertexId) -> Limit
     }
     if level.topology().outgoing(v).is_none() {
         return LimitVertex { position: points[v.index()], normal: None };
+    }
+    if level.has_slices()
+        && let Some(slice) = level.topology().ring(v).find_map(|h| level.slice(level.topology().face(h)))
+        && level.topology().origin(slice.halfedge) == v
+    {
+        return at_meeting(level, points, slice);
     }
     if masks_hold(level, v) {
         return by_masks(level, points, v);
@@ -80,6 +87,27 @@ fn regular(level: &Level, points: &[Vec3], v: VertexId) -> Option<LimitVertex> {
     Some(LimitVertex { position: frame.position, normal })
 }
 
+/// Where curves meet: the vertex itself, and the mean of the normals of the faces around it.
+fn at_meeting(level: &Level, points: &[Vec3], slice: Slice) -> LimitVertex {
+    let topology = level.topology();
+    let v = topology.origin(slice.halfedge);
+    let position = points[v.index()];
+    let halfedges: Vec<HalfedgeId> = topology.ring(v).collect();
+    let port_first = level.slice(topology.face(halfedges[0])).is_some_and(|slice| slice.port_first);
+    let mut ring = Vec::with_capacity(2 * halfedges.len());
+    for &h in &halfedges {
+        ring.extend(
+            [topology.target(h), topology.target(topology.next(h))].map(|v| points[v.index()] - position),
+        );
+    }
+    let kind = Kind::Meeting { ports: halfedges.len() as u32 / 2, port_first, t: slice.t.to_bits() };
+    let normal = (0..halfedges.len()).fold(Vec3::ZERO, |sum, k| {
+        let [first, second] = kind.meeting_tangents(&ring, k);
+        sum + first.cross(second).normalized().unwrap_or(Vec3::ZERO)
+    });
+    LimitVertex { position, normal: normal.normalized() }
+}
+
 /// The vertex with two rings of faces: creases look that far.
 fn around(level: &Level, points: &[Vec3], v: VertexId) -> (Level, Vec<Vec3>, VertexId) {
     let faces: Vec<FaceId> = level.topology().ring(v).map(|h| level.topology().face(h)).collect();
@@ -92,7 +120,9 @@ fn around(level: &Level, points: &[Vec3], v: VertexId) -> (Level, Vec<Vec3>, Ver
 fn masks_hold(level: &Level, v: VertexId) -> bool {
     let topology = level.topology();
     let settled = |s: f64| s == 0.0 || s.is_infinite();
-    if !settled(level.vertex_sharpness(v)) {
+    if !settled(level.vertex_sharpness(v))
+        || topology.ring(v).any(|h| level.slice(topology.face(h)).is_some())
+    {
         return false;
     }
     let mut sharp = usize::from(topology.is_boundary(v));

@@ -5,6 +5,7 @@
 //! their relative accuracy at every depth.
 
 use super::bicubic::{self, Net};
+use super::normals::unit_normal;
 use crate::math::Vec3;
 use crate::math::simd::{self, Four};
 use crate::patch::{ChainBasis, Kind, PatchTable, TURNED, Tail, Wide};
@@ -151,6 +152,17 @@ impl Walk {
         let tangents =
             tangents.map(|[a, b]| [narrow(weighted(a, &self.ring)), narrow(weighted(b, &self.ring))]);
         (position, tangents)
+    }
+
+    /// True if all quads at a meeting of curves have this normal there, to 1e-9.
+    pub(super) fn agree_on(&self, normal: Vec3, basis: &ChainBasis) -> bool {
+        let Kind::Meeting { ports, .. } = basis.kind else { return true };
+        let inner = &self.ring[..basis.kind.inner_count()];
+        let ring: Vec<Vec3> = inner[1..].iter().map(|&p| narrow(p) - narrow(inner[0])).collect();
+        (0..2 * ports as usize).all(|k| {
+            let [first, second] = basis.kind.meeting_tangents(&ring, k);
+            unit_normal(first, second).is_some_and(|other| other.distance(normal) <= 1e-9)
+        })
     }
 
     /// The sum of the faces' normals around the corner, as large as they are: which way the surface looks.

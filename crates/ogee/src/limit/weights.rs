@@ -71,7 +71,7 @@ impl Weights {
         what: Derivatives,
     ) -> Weights {
         let count = basis.ring_count();
-        let pays = count <= MOST_POINTS && items.len() <= MOST_PLACES;
+        let pays = !basis.has_quarters() && count <= MOST_POINTS && items.len() <= MOST_PLACES;
         let spots = items.iter().map(|item| {
             let (key, u, v) = in_chain(corner, item.u, item.v);
             let (step, tile) = ((key >> 2) as usize, (key & 3) as usize);

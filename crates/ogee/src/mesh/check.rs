@@ -1,5 +1,6 @@
 //! Every defect a control mesh can have, and what is worth a note.
 
+use super::meetings::check_meetings;
 use super::topology::{NONE, pair_halfedges};
 use super::{ControlMesh, FaceId, VertexId};
 
@@ -38,6 +39,10 @@ pub enum Defect {
     CornerOffVertex { vertex: u32, count: u32 },
     #[error("hole tag names face {face}, but there are only {count}")]
     HoleOffFace { face: u32, count: u32 },
+    #[error("meeting names vertex {vertex}, but there are only {count}")]
+    MeetingOffVertex { vertex: u32, count: u32 },
+    #[error("meeting of curves at vertex {vertex}: {message}")]
+    Meeting { vertex: u32, message: String },
     #[error("a sharpness at vertex {vertex} is not a number")]
     SharpnessNotANumber { vertex: u32 },
     #[error("texture coordinates: {message}")]
@@ -72,6 +77,8 @@ impl Defect {
             Defect::CreaseOffEdge { .. } => "crease_off_edge",
             Defect::CornerOffVertex { .. } => "corner_off_vertex",
             Defect::HoleOffFace { .. } => "hole_off_face",
+            Defect::MeetingOffVertex { .. } => "meeting_off_vertex",
+            Defect::Meeting { .. } => "meeting",
             Defect::SharpnessNotANumber { .. } => "sharpness_not_a_number",
             Defect::FaceVarying { .. } => "face_varying",
             Defect::TooManyElements { .. } => "too_many_elements",
@@ -92,9 +99,10 @@ impl Defect {
                 Some(Place::Vertex(vertex.0))
             }
             Defect::CreaseOffEdge { a, b } => Some(Place::Edge(a, b)),
-            Defect::CornerOffVertex { vertex, .. } | Defect::SharpnessNotANumber { vertex } => {
-                Some(Place::Vertex(vertex))
-            }
+            Defect::CornerOffVertex { vertex, .. }
+            | Defect::MeetingOffVertex { vertex, .. }
+            | Defect::Meeting { vertex, .. }
+            | Defect::SharpnessNotANumber { vertex } => Some(Place::Vertex(vertex)),
             Defect::HoleOffFace { face, .. } => Some(Place::Face(face)),
         }
     }
@@ -130,6 +138,9 @@ pub fn check(mesh: &ControlMesh) -> Vec<Defect> {
         }
     }
     check_tags(mesh, &mut defects);
+    if !mesh.meetings.is_empty() && defects.is_empty() {
+        check_meetings(mesh, &mut defects);
+    }
     defects
 }
 
@@ -253,6 +264,9 @@ fn check_tags(mesh: &ControlMesh, defects: &mut Vec<Defect>) {
         if corner.sharpness.value().is_nan() {
             defects.push(Defect::SharpnessNotANumber { vertex: corner.vertex });
         }
+    }
+    for meeting in mesh.meetings.iter().filter(|meeting| meeting.vertex >= count) {
+        defects.push(Defect::MeetingOffVertex { vertex: meeting.vertex, count });
     }
     let count = mesh.faces.len() as u32;
     defects

@@ -16,6 +16,8 @@ pub struct ControlMesh {
     pub corners: Vec<Corner>,
     /// Faces that take part in refinement but are no part of the surface.
     pub holes: Vec<u32>,
+    /// Vertices at which curves of a network meet.
+    pub meetings: Vec<Meeting>,
     /// Choices of the subdivision scheme.
     pub scheme: Scheme,
     /// Texture coordinates, if there are any.
@@ -136,6 +138,18 @@ pub struct Corner {
     pub vertex: u32,
     /// For how long.
     pub sharpness: Sharpness,
+}
+
+/// A vertex at which curves of a network meet: it never moves, and the quads around it follow a rule of their own
+/// (`docs/methods/curve_network.md`).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Meeting {
+    /// The vertex: inside, with an even number of faces, all quads.
+    pub vertex: u32,
+    /// The neighbours through which curves arrive, counter-clockwise: every second one.
+    pub ports: Vec<u32>,
+    /// The parameter `t` of Abbas and Nasri, above 0 and at most 1/2.
+    pub t: f64,
 }
 
 impl Default for FaceList {

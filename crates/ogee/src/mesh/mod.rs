@@ -4,13 +4,14 @@ mod check;
 pub(crate) mod connectivity;
 mod control_mesh;
 mod ids;
+mod meetings;
 pub mod shapes;
 mod statistics;
 pub(crate) mod topology;
 
 pub use check::{Defect, Note, Place, TopologyError, check, notes};
 pub use control_mesh::{
-    Boundary, ControlMesh, Corner, Crease, Creasing, FaceList, FaceVarying, FaceVaryingRule, Scheme,
+    Boundary, ControlMesh, Corner, Crease, Creasing, FaceList, FaceVarying, FaceVaryingRule, Meeting, Scheme,
     Sharpness,
 };
 pub use ids::{EdgeId, FaceId, HalfedgeId, VertexId};

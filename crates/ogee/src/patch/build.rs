@@ -259,9 +259,9 @@ impl Builder {
     ) -> (Below, Vec<Target>) {
         let faces: Vec<FaceId> = split.iter().map(|target| target.face).collect();
         let mut part_faces = with_ring(level, &faces);
-        if level.is_chaikin() {
+        if level.is_chaikin() || level.has_slices() {
             // How a crease fades is decided by all edges at its far end as well, and hidden faces bring no ring of
-            // their own.
+            // their own; a face at a meeting of curves looks across its port.
             part_faces = with_ring(level, &part_faces);
         }
         let part = Neighbourhood::new(level, &part_faces);
@@ -281,6 +281,9 @@ pub(super) fn tagged_vertices(level: &Level) -> Vec<bool> {
     let mut tagged = vec![false; level.topology().vertex_count()];
     for (v, _) in level.tagged_rules().1.iter() {
         tagged[v as usize] = true;
+    }
+    for (f, _) in level.slices() {
+        level.topology().halfedges(f).for_each(|h| tagged[level.topology().origin(h).index()] = true);
     }
     tagged
 }

@@ -21,6 +21,7 @@ use std::f64::consts::{PI, TAU};
 use super::dart::Dart;
 use super::surroundings::{Mirrored, Surroundings};
 use super::{masks, smooth};
+use crate::curve_network::rule::Slice;
 use crate::math::Vec3;
 use crate::math::simd::{self, Four};
 use crate::mesh::{Boundary, Creasing, EdgeId, FaceId, FaceList, HalfedgeId, Scheme, Topology, VertexId};
@@ -35,6 +36,9 @@ pub(crate) enum Kind {
     Smooth { valence: u32 },
     /// An interior vertex that stays, no sharp edge at it.
     Cone { valence: u32 },
+    /// A vertex where curves meet at so many ports, the first of them along the quad's own first edge or the second; the bits
+    /// of the parameter.
+    Meeting { ports: u32, port_first: bool, t: u64 },
     /// An interior vertex where one crease ends; `crease` is its edge, counted from the quad's own first.
     Dart { valence: u32, crease: u32 },
     /// A sector beside a crease or boundary.
@@ -46,20 +50,21 @@ pub(crate) enum Kind {
 impl Kind {
     /// Faces all the way round.
     pub(crate) fn is_closed(self) -> bool {
-        matches!(self, Kind::Smooth { .. } | Kind::Cone { .. } | Kind::Dart { .. })
+        !matches!(self, Kind::Crease { .. } | Kind::Corner { .. })
     }
 
     /// Number of faces around the corner.
     pub(crate) fn faces(self) -> u32 {
         match self {
             Kind::Smooth { valence } | Kind::Cone { valence } | Kind::Dart { valence, .. } => valence,
+            Kind::Meeting { ports, .. } => 2 * ports,
             Kind::Crease { faces, .. } | Kind::Corner { faces, .. } => faces,
         }
     }
 
     fn position(self) -> u32 {
         match self {
-            Kind::Smooth { .. } | Kind::Cone { .. } | Kind::Dart { .. } => 0,
+            Kind::Smooth { .. } | Kind::Cone { .. } | Kind::Meeting { .. } | Kind::Dart { .. } => 0,
             Kind::Crease { position, .. } | Kind::Corner { position, .. } => position,
         }
     }
@@ -67,7 +72,7 @@ impl Kind {
     /// False if the quad's first edge at the corner is sharp.
     pub(crate) fn continues_below(self) -> bool {
         match self {
-            Kind::Smooth { .. } | Kind::Cone { .. } => true,
+            Kind::Smooth { .. } | Kind::Cone { .. } | Kind::Meeting { .. } => true,
             Kind::Dart { crease, .. } => crease != 0,
             Kind::Crease { position, .. } | Kind::Corner { position, .. } => position > 0,
         }
@@ -76,7 +81,7 @@ impl Kind {
     /// False if the quad's other edge at the corner is sharp.
     pub(crate) fn continues_left(self) -> bool {
         match self {
-            Kind::Smooth { .. } | Kind::Cone { .. } => true,
+            Kind::Smooth { .. } | Kind::Cone { .. } | Kind::Meeting { .. } => true,
             Kind::Dart { valence, crease } => crease != 1 % valence,
             Kind::Crease { faces, position } | Kind::Corner { faces, position } => position + 1 < faces,
         }
@@ -90,6 +95,17 @@ impl Kind {
     /// Number of points of the ring.
     pub(crate) fn ring_count(self) -> usize {
         self.inner_count() + 5 + usize::from(self.continues_below()) + usize::from(self.continues_left())
+    }
+
+    /// Where curves meet, the two tangents of a quad: the one with number `k` counter-clockwise from the quad that is looked
+    /// from. `ring` has the points around the vertex, relative to it.
+    pub(crate) fn meeting_tangents(self, ring: &[Vec3], k: usize) -> [Vec3; 2] {
+        let Kind::Meeting { ports, port_first, t } = self else { return [Vec3::ZERO; 2] };
+        let weights = meeting_tangents(ports as usize, port_first == k.is_multiple_of(2), f64::from_bits(t));
+        weights.map(|weights| {
+            let around = ring.iter().cycle().skip(2 * k);
+            weights[1..].iter().zip(around).fold(Vec3::ZERO, |sum, (&weight, &p)| sum + weight * p)
+        })
     }
 }
 
@@ -161,8 +177,9 @@ pub(crate) struct ChainBasis {
     face_points: Sums,
     /// The next ring, then the other points of the tiles; over the ring and the face points after it.
     fine: Sums,
-    /// Nets of the three tiles beside the corner, `i + 4 j`, as numbers of fine points: at `(1,0)`, `(1,1)`, `(0,1)`.
-    pub(crate) tiles: [[u32; 16]; 3],
+    /// Nets of the three tiles beside the corner, `i + 4 j`, as numbers of fine points: at `(1,0)`, `(1,1)`, `(0,1)`. Where
+    /// curves meet, of the four quarters of each.
+    pub(crate) tiles: Vec<[u32; 16]>,
     /// Weights of the limit position over the inner points.
     pub(crate) position: Vec<f64>,
     /// Weights of two vectors that span the tangent plane, along the quad's own edges where the vertex is smooth;
@@ -183,23 +200,41 @@ impl ChainBasis {
         let ring = surroundings.ring(HalfedgeId(4 * halfedge.0), kind);
         debug_assert_eq!(ring.len(), count);
         let mut fine_points = ring;
-        let tiles = [1, 2, 3].map(|corner| {
-            let quad = halfedge.0 + corner;
-            // Aligned with the quad, not turned with its corner.
-            let origin = HalfedgeId(4 * quad + (4 - corner));
-            surroundings.net(origin).map(|point| number_of(&mut fine_points, point))
-        });
+        // Aligned with the quad, not turned with its corner.
+        let origins = [1, 2, 3].map(|corner| HalfedgeId(4 * (halfedge.0 + corner) + (4 - corner)));
+        let mut tiles = Vec::new();
+        let mut quarters = Vec::new();
+        if let Kind::Meeting { .. } = kind {
+            let below = child.split();
+            let surroundings = Surroundings::new(&below);
+            for origin in origins {
+                let first = child.topology().first(child.topology().face(origin)).0;
+                for quarter in 0..4 {
+                    let quad = first + (origin.0 - first + quarter) % 4;
+                    let net = surroundings.net(HalfedgeId(4 * quad + (4 - quarter) % 4));
+                    tiles.push(net.map(|point| (count as u32) + number_of(&mut quarters, point)));
+                }
+            }
+        } else {
+            tiles.extend(
+                origins
+                    .map(|origin| surroundings.net(origin).map(|point| number_of(&mut fine_points, point))),
+            );
+        }
         let mut terms = Terms { level: &model.level, count, faces: Vec::new(), row: Row::new() };
         let mut fine = Sums::default();
         for point in &fine_points {
             let row = terms.of(point);
             fine.push(row);
         }
+        for point in &quarters {
+            fine.push(over_ring(&model.level, &child, point, count));
+        }
         let mut face_points = Sums::default();
         for &face in &terms.faces {
-            let topology = model.level.topology();
-            let corners = topology.halfedges(face).map(|h| (topology.origin(h).0, 1.0 / 4.0));
-            face_points.push(corners.collect());
+            let mut row = Row::new();
+            rules::face_mask(&model.level, face, &mut row);
+            face_points.push(row.weights().to_vec());
         }
         let mut basis = ChainBasis {
             kind,
@@ -214,6 +249,21 @@ impl ChainBasis {
         basis.tangents = tangent_weights(kind);
         basis.eigenvalue = basis.subdominant();
         basis
+    }
+
+    /// True if a tile is no patch, but its four quarters are.
+    pub(crate) fn has_quarters(&self) -> bool {
+        matches!(self.kind, Kind::Meeting { .. })
+    }
+
+    /// Where a tile lies in the frame of the corner, in widths of its step, and how wide it is.
+    pub(crate) fn tile_cell(&self, tile: usize) -> ([f64; 2], f64) {
+        const CORNERS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        if !self.has_quarters() {
+            return (CORNERS[tile + 1], 1.0);
+        }
+        let ([x, y], [i, j]) = (CORNERS[tile / 4 + 1], CORNERS[tile % 4]);
+        ([x + i / 2.0, y + j / 2.0], 1.0 / 2.0)
     }
 
     /// By how much the surface shrinks about its limit in some steps, and by how much first and second derivatives grow,
@@ -274,7 +324,7 @@ impl ChainBasis {
     fn limit_position(&self) -> Vec<f64> {
         let count = self.kind.inner_count();
         match self.kind {
-            Kind::Cone { .. } | Kind::Corner { .. } => unit(count, 0),
+            Kind::Cone { .. } | Kind::Corner { .. } | Kind::Meeting { .. } => unit(count, 0),
             Kind::Smooth { valence } => {
                 let n = f64::from(valence);
                 let [vertex, edge, diagonal] = [n * n, 4.0, 1.0].map(|weight| weight / (n * (n + 5.0)));
@@ -302,6 +352,7 @@ impl ChainBasis {
             }
             // Edges and diagonals move alike there, with the vertex at rest: l^2 - 3/4 l + 1/16 = 0.
             Kind::Cone { .. } => (3.0 + 5.0_f64.sqrt()) / 8.0,
+            Kind::Meeting { .. } => 1.0 / 2.0,
             // Along the sharp edges 1/2.
             Kind::Crease { faces, .. } | Kind::Corner { faces, .. } => {
                 masks::subdominant(PI / f64::from(faces)).max(1.0 / 2.0)
@@ -334,8 +385,51 @@ fn tangent_weights(kind: Kind) -> Option<[Vec<f64>; 2]> {
             Some([0, 1].map(|which| few_weights(kind, which)))
         }
         Kind::Dart { valence, crease } => Dart::new(valence as usize).seen_from(crease as usize).1,
+        Kind::Meeting { ports, port_first, t } => {
+            Some(meeting_tangents(ports as usize, port_first, f64::from_bits(t)))
+        }
         _ => None,
     }
+}
+
+/// The tangent of the curve that arrives along one of the quad's edges, and where the free spoke along the other leads in
+/// the end: of the eigenvectors to 1/2 of `docs/methods/curve_network.md`.
+fn meeting_tangents(ports: usize, port_first: bool, t: f64) -> [Vec<f64>; 2] {
+    let count = 1 + 4 * ports;
+    let ring = |k: usize| 1 + k % (4 * ports);
+    // Neighbours of the vertex are numbered from the quad's first edge; ports are every second one.
+    let first = usize::from(!port_first);
+    let tangent = |port: usize, share: f64, out: &mut Vec<f64>| {
+        let at = 2 * (2 * port + first);
+        out[0] -= share;
+        for (k, weight) in [(at, 4.0 / 6.0), (at + 1, 1.0 / 6.0), (at + 4 * ports - 1, 1.0 / 6.0)] {
+            out[ring(k)] += share * weight;
+        }
+    };
+    let mut own = vec![0.0; count];
+    tangent(0, 1.0, &mut own);
+    // The free spoke after port 0, or the one before it.
+    let mut free = vec![0.0; count];
+    for port in 0..ports {
+        let step = if port_first { port } else { ports - port };
+        let share: f64 = (0..ports)
+            .map(|w| {
+                let angle = TAU * w as f64 / ports as f64;
+                let sums = (angle * step as f64).cos() + (angle * (1.0 - step as f64)).cos();
+                let under = 1.0 - t + t * angle.cos();
+                // Two ports at t = 1/2: what has no place in the tangents is an eigenvector of its own, below.
+                if under.abs() < 1e-9 { 0.0 } else { sums / (2.0 * under) }
+            })
+            .sum();
+        tangent(port, share / ports as f64, &mut free);
+    }
+    if ports == 2 && (t - 0.5).abs() < 1e-9 {
+        let spoke = 2 * usize::from(port_first);
+        for (k, weight) in [(0, 4.0), (1, 1.0), (7, 1.0), (3, -1.0), (4, -4.0), (5, -1.0)] {
+            free[ring(spoke + k)] += weight / 12.0;
+        }
+    }
+    if port_first { [own, free] } else { [free, own] }
 }
 
 /// The weights of a tangent mask of a sector of few faces, one point at a time: the mask is linear.
@@ -361,6 +455,25 @@ fn number_of(points: &mut Vec<Mirrored>, point: Mirrored) -> u32 {
         points.len() - 1
     });
     number as u32
+}
+
+/// A point two steps down in terms of the model's ring.
+fn over_ring(level: &Level, child: &Level, point: &Mirrored, count: usize) -> Vec<(u32, f64)> {
+    let mut out = Vec::new();
+    let (mut outer, mut inner) = (Row::new(), Row::new());
+    for &(fine, share) in point {
+        outer.clear();
+        child.child_mask(fine, &mut outer);
+        for &(middle, weight) in outer.weights() {
+            inner.clear();
+            level.child_mask(middle, &mut inner);
+            for &(vertex, last) in inner.weights() {
+                debug_assert!((vertex as usize) < count, "the ring decides its tiles");
+                out.push((vertex, share * weight * last));
+            }
+        }
+    }
+    out
 }
 
 /// What a point of the refined model is in terms of the model's ring and its face points.
@@ -467,7 +580,15 @@ impl Model {
         let corners = if stays { vec![(0, f64::INFINITY)] } else { Vec::new() };
         // The rim of the model is no boundary; on real ones a vertex stays where its kind says so.
         let scheme = Scheme { boundary: Boundary::EdgeOnly, creasing: Creasing::Uniform };
-        let level = Level::with_sharpness(topology, scheme, sharp, Sparse::new(corners), Vec::new());
+        let mut slices = Vec::new();
+        if let Kind::Meeting { port_first, t, .. } = kind {
+            slices.extend((0..faces).map(|i| {
+                let (halfedge, t) = (HalfedgeId(4 * i), f64::from_bits(t));
+                (i, Slice { halfedge, port_first: port_first == i.is_multiple_of(2), t })
+            }));
+        }
+        let level = Level::with_sharpness(topology, scheme, sharp, Sparse::new(corners), Vec::new())
+            .with_slices(Sparse::new(slices));
         Model { level, face: FaceId(position) }
     }
 }

@@ -1,5 +1,6 @@
 //! `Neighbourhood`: some faces of a level as a level of their own.
 
+use crate::curve_network::rule::Slice;
 use crate::mesh::{FaceId, FaceList, HalfedgeId, Topology, VertexId};
 use crate::rules::{Level, SharpEdge, Sparse};
 
@@ -42,13 +43,15 @@ impl Neighbourhood {
             .enumerate()
             .filter_map(|(own, &v)| Some((own as u32, whole.sharp_vertices().get(v)?)));
         let sharp_vertices = Sparse::new(tagged.collect());
+        let slices = Sparse::new(slices(whole, faces, &own_topology));
         let level = Level::with_sharpness(
             own_topology,
             whole.scheme(),
             Sparse::new(sharp),
             sharp_vertices,
             Vec::new(),
-        );
+        )
+        .with_slices(slices);
         Neighbourhood { level, vertices: vertices.iter().copied().map(VertexId).collect() }
     }
 
@@ -61,6 +64,20 @@ impl Neighbourhood {
     pub(crate) fn take<T: Clone>(&self, data: &[T]) -> Vec<T> {
         self.vertices.iter().map(|v| data[v.index()].clone()).collect()
     }
+}
+
+/// The rules of its faces where curves meet. On the rim the quad across a port may be missing.
+fn slices(whole: &Level, faces: &[FaceId], own: &Topology) -> Vec<(u32, Slice)> {
+    if !whole.has_slices() {
+        return Vec::new();
+    }
+    let turned = |(number, &f): (u32, &FaceId)| {
+        let slice = whole.slice(f)?;
+        let corner = slice.halfedge.0 - whole.topology().first(f).0;
+        let slice = Slice { halfedge: HalfedgeId(own.first(FaceId(number)).0 + corner), ..slice };
+        slice.port_side(own).map(|_| (number, slice))
+    };
+    (0..).zip(faces).filter_map(turned).collect()
 }
 
 /// The given faces and all that touch them, each once, in order.

@@ -3,6 +3,7 @@
 //! This is the general case, with tags, boundaries and polygons; [`super::plain`] is the common one.
 
 use super::chain::Kind;
+use crate::curve_network::rule::Slice;
 use crate::mesh::HalfedgeId;
 use crate::rules::Level;
 
@@ -42,6 +43,13 @@ impl<'a> Surroundings<'a> {
     pub(super) fn corner(&self, h: HalfedgeId) -> CornerKind {
         let (level, topology) = (self.level, self.level.topology());
         let v = topology.origin(h);
+        if level.has_slices() {
+            match self.meeting(h) {
+                Some(Some(kind)) => return CornerKind::Irregular(kind),
+                Some(None) => return CornerKind::Unsettled,
+                None => {}
+            }
+        }
         let settled = |s: f64| s == 0.0 || s.is_infinite();
         let own = level.vertex_sharpness(v);
         if !settled(own) || topology.ring(v).any(|h| !settled(level.edge_sharpness(h))) {
@@ -70,6 +78,29 @@ impl<'a> Surroundings<'a> {
             }
             _ => CornerKind::Irregular(kind),
         }
+    }
+
+    /// What a meeting of curves makes of the corner: its kind where it is the meeting, nothing settled beside another's quads,
+    /// and `None` where no meeting is near but that of the quad itself.
+    fn meeting(&self, h: HalfedgeId) -> Option<Option<Kind>> {
+        let (level, topology) = (self.level, self.level.topology());
+        let v = topology.origin(h);
+        let centre = |h: HalfedgeId| {
+            let slice = level.slice(topology.face(h))?;
+            Some((topology.origin(slice.halfedge), slice))
+        };
+        let own = centre(h);
+        if let Some((at, Slice { port_first, t, .. })) = own
+            && at == v
+        {
+            let ports = topology.ring(v).count() as u32 / 2;
+            return Some(Some(Kind::Meeting { ports, port_first, t: t.to_bits() }));
+        }
+        let own = own.map(|(at, _)| at);
+        let others = topology.ring(v).filter_map(centre).any(|(at, _)| own != Some(at));
+        // Points mirrored at a sharp edge would have to be mirrored with the rule.
+        let is_sharp = |h| level.is_sharp(h) || level.is_sharp(topology.prev(h));
+        (others || own.is_some() && topology.ring(v).any(is_sharp)).then_some(None)
     }
 
     /// The halfedges that leave the corner, over the sector that `h` lies in, counter-clockwise: from its first sharp

@@ -32,36 +32,53 @@ impl Level {
             let tagged = !edge_rules.is_empty() && edge_rules.get(e.0).is_some();
             tagged.then(|| by_table(points, |row| masks::edge_mask(self, self.topology().side(e), row)))
         };
+        let tagged_face = |f: FaceId| {
+            let tagged = self.has_slices() && self.slice(f).is_some();
+            tagged.then(|| by_table(points, |row| masks::face_mask(self, f, row)))
+        };
+        let tagged = Tagged { face: tagged_face, vertex: tagged_vertex, edge: tagged_edge };
         let boundary = self.scheme().boundary;
         match self.topology().as_quads() {
-            Some(quads) => refine(&quads, boundary, points, out, tagged_vertex, tagged_edge),
-            None => refine(self.topology(), boundary, points, out, tagged_vertex, tagged_edge),
+            Some(quads) => refine(&quads, boundary, points, out, tagged),
+            None => refine(self.topology(), boundary, points, out, tagged),
         }
     }
 }
 
-/// `tagged_vertex` and `tagged_edge` give the points of elements that have a rule of their own.
+/// The points of elements that have a rule of their own.
+struct Tagged<F, V, E> {
+    face: F,
+    vertex: V,
+    edge: E,
+}
+
 fn refine<T: Interpolate>(
     topology: &impl Connectivity,
     boundary: Boundary,
     points: &[T],
     out: &mut Vec<T>,
-    tagged_vertex: impl Fn(VertexId) -> Option<T> + Sync + Send,
-    tagged_edge: impl Fn(EdgeId) -> Option<T> + Sync + Send,
+    tagged: Tagged<
+        impl Fn(FaceId) -> Option<T> + Sync + Send,
+        impl Fn(VertexId) -> Option<T> + Sync + Send,
+        impl Fn(EdgeId) -> Option<T> + Sync + Send,
+    >,
 ) {
     let (vertices, faces, edges) = (topology.vertex_count(), topology.face_count(), topology.edge_count());
     let points = &points[..vertices];
-    let face_points = par::collect(faces, |f| face_point(topology, FaceId(f as u32), points));
+    let face_points = par::collect(faces, |f| {
+        let f = FaceId(f as u32);
+        (tagged.face)(f).unwrap_or_else(|| face_point(topology, f, points))
+    });
     out.clear();
     out.reserve(vertices + faces + edges);
     par::extend(out, vertices, |v| {
         let v = VertexId(v as u32);
-        tagged_vertex(v).unwrap_or_else(|| vertex_point(topology, boundary, v, points, &face_points))
+        (tagged.vertex)(v).unwrap_or_else(|| vertex_point(topology, boundary, v, points, &face_points))
     });
     out.extend_from_slice(&face_points);
     par::extend(out, edges, |e| {
         let e = EdgeId(e as u32);
-        tagged_edge(e).unwrap_or_else(|| edge_point(topology, topology.side(e), points, &face_points))
+        (tagged.edge)(e).unwrap_or_else(|| edge_point(topology, topology.side(e), points, &face_points))
     });
 }
 

@@ -3,6 +3,7 @@
 use super::level::SharpEdge;
 use super::{Level, Sparse};
 use crate::crease::rule::{fade, fade_chaikin};
+use crate::curve_network::rule::Slice;
 use crate::mesh::{FaceId, HalfedgeId, Topology, VertexId};
 
 /// The sharpness that the edge of `h` passes on to its half at the end `v`.
@@ -45,6 +46,12 @@ impl Level {
         let vertices = Sparse::new(vertices.collect());
         let hidden =
             self.hidden_faces().iter().flat_map(|&f| self.topology.halfedges(f)).map(|h| FaceId(h.0));
+        let slices = self.slices().map(|(_, slice)| {
+            let h = slice.halfedge.0;
+            (h, Slice { halfedge: HalfedgeId(4 * h), ..slice })
+        });
+        let slices = Sparse::new(slices.collect());
         Level::with_sharpness(topology, self.scheme, Sparse::new(edges), vertices, hidden.collect())
+            .with_slices(slices)
     }
 }

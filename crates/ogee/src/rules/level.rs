@@ -2,8 +2,10 @@
 
 use super::classify::{classify_edges, classify_vertices, hidden_faces};
 use super::{EdgeRule, Sparse, VertexMask, VertexRule};
+use crate::curve_network::rule::Slice;
 use crate::mesh::{
-    Boundary, ControlMesh, Creasing, FaceId, HalfedgeId, Scheme, Topology, TopologyError, VertexId, check,
+    Boundary, ControlMesh, Creasing, FaceId, HalfedgeId, Meeting, Scheme, Topology, TopologyError, VertexId,
+    check,
 };
 
 /// An edge with sharpness above zero, by one of its halfedges.
@@ -25,6 +27,8 @@ pub struct Level {
     pub(super) sharp_edges: Sparse<SharpEdge>,
     /// Vertices with sharpness above zero.
     pub(super) vertex_sharpness: Sparse<f64>,
+    /// Faces around vertices where curves meet.
+    slices: Sparse<Slice>,
     /// Rules other than smooth, or crease on the boundary.
     edge_rules: Sparse<EdgeRule>,
     /// Rules other than smooth inside, and those of the scheme on the boundary.
@@ -40,7 +44,10 @@ impl Level {
     /// If the mesh has any defect; then all of them are named.
     pub fn new(mesh: &ControlMesh) -> Result<Level, TopologyError> {
         let topology = Topology::new(mesh)?;
-        let tagged = !(mesh.creases.is_empty() && mesh.corners.is_empty() && mesh.holes.is_empty());
+        let tagged = !(mesh.creases.is_empty()
+            && mesh.corners.is_empty()
+            && mesh.holes.is_empty()
+            && mesh.meetings.is_empty());
         if tagged || mesh.uv.is_some() {
             let defects = check(mesh);
             if !defects.is_empty() {
@@ -57,7 +64,9 @@ impl Level {
         let edges = Sparse::new(edges.collect()).filter(|edge: SharpEdge| edge.sharpness > 0.0);
         let vertices = Sparse::new(vertices.collect()).filter(|sharpness| sharpness > 0.0);
         let hidden = hidden_faces(&topology, mesh.scheme, &mesh.holes);
-        Ok(Level::with_sharpness(topology, mesh.scheme, edges, vertices, hidden))
+        let slices = mesh.meetings.iter().flat_map(|meeting| slices_of(&topology, meeting));
+        let slices = Sparse::new(slices.collect());
+        Ok(Level::with_sharpness(topology, mesh.scheme, edges, vertices, hidden).with_slices(slices))
     }
 
     /// A level from checked parts.
@@ -68,12 +77,44 @@ impl Level {
         vertex_sharpness: Sparse<f64>,
         hidden: Vec<FaceId>,
     ) -> Level {
-        let (edge_rules, vertex_rules) = (Sparse::default(), Sparse::default());
-        let mut level =
-            Level { topology, scheme, sharp_edges, vertex_sharpness, edge_rules, vertex_rules, hidden };
+        let (slices, edge_rules, vertex_rules) = (Sparse::default(), Sparse::default(), Sparse::default());
+        let mut level = Level {
+            topology,
+            scheme,
+            sharp_edges,
+            vertex_sharpness,
+            slices,
+            edge_rules,
+            vertex_rules,
+            hidden,
+        };
         level.edge_rules = classify_edges(&level);
         level.vertex_rules = classify_vertices(&level);
         level
+    }
+
+    /// The level with rules where curves meet.
+    pub(crate) fn with_slices(mut self, slices: Sparse<Slice>) -> Level {
+        let centre = |slice: Slice| self.topology.origin(slice.halfedge).0;
+        let stay = slices.iter().map(|(_, slice)| (centre(slice), VertexRule::Of(VertexMask::Corner)));
+        self.vertex_rules = Sparse::new(self.vertex_rules.iter().chain(stay).collect());
+        self.slices = slices;
+        self
+    }
+
+    /// True if curves meet somewhere.
+    pub(crate) fn has_slices(&self) -> bool {
+        !self.slices.is_empty()
+    }
+
+    /// The rule of a face at a meeting.
+    pub(crate) fn slice(&self, f: FaceId) -> Option<Slice> {
+        self.slices.get(f.0)
+    }
+
+    /// The faces at meetings, and their rules.
+    pub(crate) fn slices(&self) -> impl Iterator<Item = (FaceId, Slice)> + '_ {
+        self.slices.iter().map(|(f, slice)| (FaceId(f), slice))
     }
 
     /// Who meets whom.
@@ -105,9 +146,9 @@ impl Level {
         self.vertex_sharpness.get(v.0).unwrap_or(0.0)
     }
 
-    /// True if an edge or vertex is sharp by a tag.
+    /// True if an edge or vertex is sharp by a tag, or curves meet.
     pub(crate) fn has_tags(&self) -> bool {
-        !self.sharp_edges.is_empty() || !self.vertex_sharpness.is_empty()
+        !self.sharp_edges.is_empty() || !self.vertex_sharpness.is_empty() || self.has_slices()
     }
 
     /// The edges with finite sharpness above zero, by one halfedge each.
@@ -175,6 +216,15 @@ impl Level {
     pub(crate) fn is_chaikin(&self) -> bool {
         self.scheme.creasing == Creasing::Chaikin
     }
+}
+
+/// The faces around a meeting, and their rules.
+fn slices_of(topology: &Topology, meeting: &Meeting) -> Vec<(u32, Slice)> {
+    let slice = |halfedge: HalfedgeId| {
+        let port_first = meeting.ports.contains(&topology.target(halfedge).0);
+        (topology.face(halfedge).0, Slice { halfedge, port_first, t: meeting.t })
+    };
+    topology.ring(VertexId(meeting.vertex)).map(slice).collect()
 }
 
 /// The halfedge between two vertices, in either direction.

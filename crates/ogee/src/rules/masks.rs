@@ -5,6 +5,7 @@
 use super::{EdgeRule, Level, VertexMask, VertexRule};
 use crate::catmull_clark;
 use crate::crease;
+use crate::curve_network;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::stencil::Row;
 
@@ -63,5 +64,8 @@ pub(crate) fn face_mask(level: &Level, f: FaceId, row: &mut Row) {
 }
 
 fn face(level: &Level, f: FaceId, weight: f64, row: &mut Row) {
-    catmull_clark::rule::face_point(level.topology(), f, weight, row);
+    match level.slice(f) {
+        None => catmull_clark::rule::face_point(level.topology(), f, weight, row),
+        Some(slice) => curve_network::rule::slice_point(level.topology(), slice, weight, row),
+    }
 }

@@ -3,8 +3,8 @@
 #![allow(dead_code, unreachable_pub, reason = "each claim uses a part of it")]
 
 use ogee::{
-    Boundary, ControlMesh, Corner, Crease, Creasing, FaceId, FaceList, Level, Location, PatchTable, Scheme,
-    Sharpness, SurfaceJet, Vec3, VertexId, shapes,
+    Boundary, ControlMesh, Corner, Crease, Creasing, FaceId, FaceList, Level, Location, Meeting, PatchTable,
+    Scheme, Sharpness, SurfaceJet, Vec3, VertexId, shapes,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -50,6 +50,24 @@ pub fn noise(seed: u64) -> impl FnMut() -> f64 {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 33) as f64 / f64::from(1u32 << 31) - 0.5
     }
+}
+
+/// Makes curves meet at a vertex, one of them along the edge to `port` and the others along every second edge.
+pub fn meeting(mut mesh: ControlMesh, vertex: u32, port: u32, t: f64) -> ControlMesh {
+    let mut spokes = vec![port];
+    loop {
+        let last = spokes[spokes.len() - 1];
+        let next = mesh.faces.iter().find_map(|face| {
+            let k = face.iter().position(|&v| v == vertex)?;
+            (face[(k + 1) % face.len()] == last).then(|| face[(k + face.len() - 1) % face.len()])
+        });
+        match next.unwrap() {
+            next if next == port => break,
+            next => spokes.push(next),
+        }
+    }
+    mesh.meetings.push(Meeting { vertex, ports: spokes.into_iter().step_by(2).collect(), t });
+    mesh
 }
 
 /// Moves every point a little, the same every time, so that nothing is right by symmetry alone.
@@ -317,6 +335,28 @@ pub fn all() -> Vec<(String, ControlMesh)> {
     let hidden = creased(creased(hidden, &[[14, 15]], 1.2), &[[15, 21], [15, 16]], 0.3);
     add("crease among holes", hidden.clone());
     add("Chaikin crease among holes", chaikin(hidden));
+    // Meetings of curves.
+    for (n, t) in [(4, 0.5), (4, 0.3), (6, 1.0 / 3.0), (8, 0.1), (10, 0.27)] {
+        add(&format!("meeting of {} curves", n / 2), meeting(disk(n), 0, 1, t));
+    }
+    add("meetings beside each other", {
+        let grid = meeting(meeting(grid(7, 5), 18, 19, 0.5), 20, 21, 0.4);
+        creased(meeting(grid, 34, 42, 0.3), &[[29, 30], [30, 31]], 1.3)
+    });
+    add("meeting beside polygons", {
+        let mut mesh = meeting(disk(6), 0, 1, 0.3);
+        let faces: Vec<Vec<u32>> = mesh.faces.iter().map(<[u32]>::to_vec).collect();
+        mesh.faces = FaceList::new();
+        for face in faces {
+            if face.contains(&0) {
+                mesh.faces.push(&face);
+            } else {
+                mesh.faces.push(&face[..3]);
+                mesh.faces.push(&[face[0], face[2], face[3]]);
+            }
+        }
+        mesh
+    });
     // Holes.
     add("grid with holes", with_holes(grid(4, 4), &[0, 5, 6]));
     add("prism without lid", with_holes(prism(5), &[1]));

@@ -1,0 +1,79 @@
+//! Splits of a cage before a network is laid: curves keep their shape, meeting points move apart.
+
+use super::defect::{NetworkDefect, NetworkError};
+use super::plan::{NetworkPlan, Segment};
+use crate::mesh::{Boundary, ControlMesh, Corner, Crease, FaceList, Sharpness, VertexId};
+use crate::rules::Level;
+
+impl NetworkPlan {
+    /// The cage after the plan's splits, and the plan for it, which asks for no more. Vertices keep their numbers, so
+    /// meeting points do; paths take in the points of their edges, and curves are the same curves, refined. Tags fade as
+    /// refinement says; texture coordinates are left behind.
+    ///
+    /// # Errors
+    /// If the cage is not the one of the plan, or there would be too many faces.
+    pub fn split(&self, mesh: &ControlMesh) -> Result<(ControlMesh, NetworkPlan), NetworkError> {
+        let refuse = |defects| NetworkError { defects };
+        let mut level = Level::new(mesh)
+            .map_err(|error| refuse(error.defects.into_iter().map(NetworkDefect::Mesh).collect()))?;
+        level.check_depth(self.pre_split, u64::MAX).map_err(|_| {
+            let (what, value) = ("the number of splits".into(), f64::from(self.pre_split));
+            refuse(vec![NetworkDefect::Parameter { what, value, remedy: "choose fewer" }])
+        })?;
+        let mut points = mesh.points.clone();
+        let mut plan = NetworkPlan { pre_split: 0, ..self.clone() };
+        for _ in 0..self.pre_split {
+            plan.segments = plan.segments.iter().map(|segment| refined(segment, &level)).collect();
+            (level, points) = level.refine_points(&points);
+        }
+        let mesh = if self.pre_split == 0 { mesh.clone() } else { to_cage(&level, points) };
+        Ok((mesh, plan))
+    }
+}
+
+/// The same segment on the next level.
+fn refined(segment: &Segment, level: &Level) -> Segment {
+    let topology = level.topology();
+    let first_edge_point = (topology.vertex_count() + topology.face_count()) as u32;
+    let target = segment.target.refined();
+    let path = &segment.vertices;
+    let vertices = (0..target.control().len()).map(|i| {
+        let (from, to) = (path[i / 2], path[(i / 2 + 1) % path.len()]);
+        if i % 2 == 0 {
+            return from;
+        }
+        let edge = super::incidence::edge_between(topology, VertexId(from), VertexId(to));
+        edge.map_or(from, |edge| first_edge_point + edge.0)
+    });
+    Segment { vertices: vertices.collect(), target, ..segment.clone() }
+}
+
+/// A level as a cage of its own.
+fn to_cage(level: &Level, points: Vec<crate::math::Vec3>) -> ControlMesh {
+    let topology = level.topology();
+    let mut faces = FaceList::with_capacity(topology.face_count(), topology.halfedge_count());
+    for quad in topology.origin.chunks_exact(4) {
+        faces.push(quad);
+    }
+    let mut mesh = ControlMesh::new(points, faces);
+    for h in topology.edge_halfedges().filter(|&h| topology.twin(h).is_some()) {
+        let sharpness = level.edge_sharpness(h);
+        if sharpness > 0.0 {
+            let vertices = [topology.origin(h).0, topology.target(h).0];
+            mesh.creases.push(Crease { vertices, sharpness: Sharpness::from_value(sharpness) });
+        }
+    }
+    for vertex in 0..topology.vertex_count() as u32 {
+        let sharpness = level.vertex_sharpness(VertexId(vertex));
+        if sharpness > 0.0 {
+            mesh.corners.push(Corner { vertex, sharpness: Sharpness::from_value(sharpness) });
+        }
+    }
+    mesh.holes = level.hidden_faces().iter().map(|f| f.0).collect();
+    mesh.scheme = level.scheme();
+    if mesh.scheme.boundary == Boundary::None {
+        // What it leaves out is a hole by now; said again it would leave out more.
+        mesh.scheme.boundary = Boundary::EdgeOnly;
+    }
+    mesh
+}

@@ -1,0 +1,417 @@
+//! After splits and repair every path lies in quads with one vertex to either side, and its surface has the curve that was
+//! asked for; Euler number, border and orientation stay.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod golden;
+
+use golden::{documents, faces, index, list, number, points};
+use ogee::curve_network::{
+    Crossing, CurveNetwork, Embedding, NetworkCurve, Placing, PreSplit, XMatrix, XRing, control_point, embed,
+};
+use ogee::{
+    ControlMesh, FaceId, FaceList, Level, LimitSurface, Location, PatchTable, Topology, Valence, Vec3,
+    VertexId, limit_vertices, shapes,
+};
+use proptest::prelude::*;
+use std::collections::BTreeSet;
+
+fn euler(mesh: &Topology) -> i64 {
+    mesh.vertex_count() as i64 - mesh.edge_count() as i64 + mesh.face_count() as i64
+}
+
+/// Number of closed border lines.
+fn borders(mesh: &Topology) -> usize {
+    let mut open: BTreeSet<_> = mesh.edge_halfedges().filter(|&h| mesh.twin(h).is_none()).collect();
+    let mut count = 0;
+    while let Some(&start) = open.iter().next() {
+        count += 1;
+        let mut h = start;
+        while open.remove(&h) {
+            let next = mesh.outgoing(mesh.target(h));
+            h = next.expect("a face beside every vertex");
+        }
+    }
+    count
+}
+
+/// Where the edge from `a` to `b` is, `t` along it, on the quad on its left.
+fn along(level: &Level, table: &PatchTable, [a, b]: [u32; 2], t: f64) -> Location {
+    let topology = level.topology();
+    let h = topology.ring(VertexId(a)).find(|&h| topology.target(h).0 == b).unwrap();
+    let face = topology.face(h);
+    let (u, v) = match h.0 - topology.first(face).0 {
+        0 => (t, 0.0),
+        1 => (1.0, t),
+        2 => (1.0 - t, 1.0),
+        _ => (0.0, 1.0 - t),
+    };
+    table.locate(face, None, u, v).unwrap()
+}
+
+/// All that is promised about the mesh and the curves in it.
+fn check(name: &str, mesh: &ControlMesh, network: &CurveNetwork, embedding: &Embedding) {
+    let before = Topology::new(mesh).unwrap();
+    let level = Level::new(&embedding.mesh).unwrap();
+    let after = level.topology();
+    assert_eq!(euler(&before), euler(after), "{name}");
+    assert_eq!(borders(&before), borders(after), "{name}");
+    for v in (0..after.vertex_count() as u32).map(VertexId) {
+        assert!(after.outgoing(v).is_some(), "{name}: vertex {v} is used");
+        assert_ne!(after.valence(v), Valence::Interior(2), "{name}: vertex {v}");
+    }
+    let size = mesh.size();
+    let points = &embedding.mesh.points;
+    let limits = limit_vertices(&level, points);
+    let table = PatchTable::new(&level);
+    let surface = LimitSurface::new(&table, points);
+    for segment in embedding.segments.iter().filter(|segment| !segment.along_border) {
+        let path = &segment.vertices;
+        for k in 0..segment.target.spans() {
+            for t in [0.004, 0.3, 0.71] {
+                let at = along(&level, &table, [path[k], path[(k + 1) % path.len()]], t);
+                let distance = surface.eval(at).position.distance(segment.target.point(k as f64 + t));
+                assert!(distance < 1e-12 * size, "{name}: the curve is {distance:e} off at {k} + {t}");
+            }
+        }
+    }
+    for (segment, sides) in embedding.segments.iter().zip(&embedding.sides) {
+        if segment.along_border {
+            continue;
+        }
+        let last = segment.vertices.len() - 1;
+        let control = segment.target.control();
+        for (i, (&v, &[left, right])) in segment.vertices.iter().zip(sides).enumerate() {
+            let around: Vec<u32> = after.ring(VertexId(v)).map(|h| after.target(h).0).collect();
+            // Left is what comes next after the way forward, counter-clockwise, or before the way back.
+            let step = |to: u32, by: usize| {
+                let at = around.iter().position(|&u| u == to).unwrap();
+                around[(at + by) % around.len()]
+            };
+            if !after.is_boundary(VertexId(v)) {
+                let back = around.len() - 1;
+                let wanted = match segment.vertices.get(i + 1) {
+                    Some(&next) => [step(next, 1), step(next, back)],
+                    None if segment.target.is_closed() => {
+                        [step(segment.vertices[0], 1), step(segment.vertices[0], back)]
+                    }
+                    None => [step(segment.vertices[i - 1], back), step(segment.vertices[i - 1], 1)],
+                };
+                assert_eq!([left, right], wanted, "{name}: beside vertex {v}");
+            }
+            if (i == 0 && segment.meets[0]) || (i == last && segment.meets[1]) {
+                assert_eq!(points[v as usize], control[i], "{name}: the centre is interpolated");
+                continue;
+            }
+            let [l, m, r] = [left, v, right].map(|v| points[v as usize]);
+            assert!(
+                control_point(l, m, r).distance(control[i]) < 1e-12 * size,
+                "{name}: equation (1) at {v}"
+            );
+            let ends = segment.target.is_closed() || (0 < i && i < last);
+            let valence = if ends { Valence::Interior(4) } else { Valence::Boundary(2) };
+            assert_eq!(after.valence(VertexId(v)), valence, "{name}: vertex {v}");
+            for h in after.ring(VertexId(v)) {
+                assert_eq!(after.face_size(after.face(h)), 4, "{name}: faces at vertex {v}");
+            }
+            let distance = limits[v as usize].position.distance(segment.target.limit(i));
+            assert!(distance < 1e-12 * size, "{name}: the limit of vertex {v} is {distance:e} off");
+        }
+    }
+    for x in &embedding.x_configurations {
+        let around: Vec<u32> = after.ring(VertexId(x.center)).map(|h| after.target(h).0).collect();
+        let start = around.iter().position(|&v| v == x.ring[0]).unwrap();
+        let turned: Vec<u32> = (0..around.len()).map(|i| around[(start + i) % around.len()]).collect();
+        assert_eq!(turned, x.ring, "{name}: the ring of {}", x.center);
+        assert!(after.ring(VertexId(x.center)).all(|h| after.face_size(after.face(h)) == 4), "{name}");
+        assert!(x.ring.len() % 2 == 0 && x.ring.len() >= 4, "{name}: {x:?}");
+        let crowded = embedding.warnings.iter().any(|warning| warning.code() == "W_X_OVERLAP");
+        if network.options.placing == Placing::Eigen && !crowded {
+            let relative = |v: u32| points[v as usize] - points[x.center as usize];
+            let slices = (0..around.len()).map(|i| {
+                let slice = after.ring(VertexId(x.center)).find(|&h| after.target(h).0 == x.ring[i]).unwrap();
+                relative(after.target(after.next(slice)).0)
+            });
+            let ring =
+                XRing { ring: x.ring.iter().map(|&v| relative(v)).collect(), corners: slices.collect() };
+            let next = XMatrix::new(ring.ports(), x.parameter).refine(&ring);
+            for (a, b) in ring.ring.iter().chain(&ring.corners).zip(next.ring.iter().chain(&next.corners)) {
+                assert!((*a / 2.0).distance(*b) < 1e-12 * size, "{name}: the ring of {} is halved", x.center);
+            }
+        }
+    }
+    assert!(network.options.pre_split != PreSplit::Fixed(0) || embedding.splits == 0);
+}
+
+#[test]
+fn golden_networks_are_embedded() {
+    let mut same_mesh = 0;
+    for (name, document) in documents("curve-networks") {
+        let prepared = &document["prepared"];
+        if prepared.is_null() {
+            continue;
+        }
+        let input = &document["input"];
+        let mesh = ControlMesh::new(points(&input["vertices"]), faces(&input["faces"]));
+        let mut network = CurveNetwork::default();
+        for curve in list(&input["curves"]) {
+            network.curves.push(NetworkCurve {
+                name: curve["name"].as_str().unwrap().to_owned(),
+                vertices: list(&curve["vertices"]).iter().map(index).collect(),
+                closed: curve["closed"].as_bool().unwrap(),
+                control: (!curve["control"].is_null()).then(|| points(&curve["control"])),
+            });
+        }
+        let options = &input["options"];
+        if options["x_mode"] == "parallelogram" {
+            network.options.placing = Placing::Parallelogram;
+        }
+        network.options.parameter = options["t"].as_f64();
+        if options["crossing"] == "smooth" {
+            network.options.crossing = Crossing::Smooth;
+        }
+        let embedding = embed(&network, &mesh).unwrap();
+        check(&name, &mesh, &network, &embedding);
+        assert_eq!(embedding.splits, index(&document["pre_split_used"]), "{name}");
+        let wanted = list(&prepared["x_vertices"]);
+        assert_eq!(embedding.x_configurations.len(), wanted.len(), "{name}");
+        for (x, wanted) in embedding.x_configurations.iter().zip(wanted) {
+            assert_eq!((x.center, x.ring.len()), (index(&wanted["center"]), list(&wanted["ring"]).len()));
+            assert!((x.parameter - number(&wanted["t"])).abs() < 1e-15, "{name}");
+        }
+        // Where nothing had to be put in, numbers are the same, and so must all points be.
+        let vertices = points(&prepared["vertices"]);
+        if vertices.len() == mesh.points.len() {
+            same_mesh += 1;
+            for (v, (a, b)) in embedding.mesh.points.iter().zip(&vertices).enumerate() {
+                assert!(a.distance(*b) < 1e-12 * mesh.size(), "{name}, vertex {v}: {a:?} {b:?}");
+            }
+        }
+    }
+    assert!(same_mesh >= 6, "{same_mesh}");
+}
+
+fn octahedron() -> ControlMesh {
+    let points = [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]];
+    let points = points.map(|p| Vec3::from(p.map(f64::from))).to_vec();
+    let faces = (0..4).flat_map(|i| [[i, (i + 1) % 4, 4], [(i + 1) % 4, i, 5]]);
+    ControlMesh::new(points, faces.collect())
+}
+
+/// A prism over a pentagon with one side cut off by triangles: polygons of three, four and five corners.
+fn prism() -> ControlMesh {
+    let turn = |i: u32| f64::from(i) * std::f64::consts::TAU / 5.0;
+    let ring = |z: f64| (0..5).map(move |i| Vec3::new(turn(i).cos(), turn(i).sin(), z));
+    let mut points: Vec<Vec3> = ring(0.0).chain(ring(1.0)).collect();
+    points.push(Vec3::new(0.0, 0.0, 1.6));
+    let mut faces = FaceList::new();
+    faces.push(&[4, 3, 2, 1, 0]);
+    for i in 0..5 {
+        let j = (i + 1) % 5;
+        faces.push(&[i, j, 5 + j, 5 + i]);
+        faces.push(&[5 + i, 5 + j, 10]);
+    }
+    ControlMesh::new(points, faces)
+}
+
+fn mesh(kind: usize) -> ControlMesh {
+    match kind {
+        0 => shapes::cube(),
+        1 => octahedron(),
+        2 => shapes::grid(4, 4),
+        3 => shapes::torus(5, 4),
+        4 => shapes::disk(5, 2),
+        5 => shapes::disk(3, 2),
+        _ => prism(),
+    }
+}
+
+/// Paths that never use a vertex or an edge of their own twice, nor an edge of another: each step takes the first free
+/// neighbour from a random one on. Inside they may meet; a border vertex ends them.
+fn walks(mesh: &ControlMesh, seeds: &[Vec<usize>]) -> Vec<NetworkCurve> {
+    let topology = Topology::new(mesh).unwrap();
+    let mut used = BTreeSet::new();
+    let mut ends = BTreeSet::new();
+    let mut curves = Vec::new();
+    for (number, seed) in seeds.iter().enumerate() {
+        let mut path = vec![(seed[0] % topology.vertex_count()) as u32];
+        for &choice in &seed[1..] {
+            let v = VertexId(path[path.len() - 1]);
+            if topology.is_boundary(v) && path.len() > 1 {
+                break;
+            }
+            let ring: Vec<_> = topology.ring(v).collect();
+            let taken = |v: VertexId| topology.is_boundary(v) && ends.contains(&v);
+            let free = (0..ring.len()).map(|k| ring[(choice + k) % ring.len()]).find(|&h| {
+                let (to, edge) = (topology.target(h), topology.edge(h));
+                let blocked = taken(v) || taken(to) || used.contains(&edge) || path.contains(&to.0);
+                topology.twin(h).is_some() && !blocked
+            });
+            let Some(h) = free else { break };
+            used.insert(topology.edge(h));
+            path.push(topology.target(h).0);
+        }
+        let tips = [path[0], path[path.len() - 1]].map(VertexId);
+        if path.len() > 1 {
+            ends.extend(tips);
+            curves.push(NetworkCurve {
+                name: format!("c{number}"),
+                vertices: path,
+                ..NetworkCurve::default()
+            });
+        }
+    }
+    curves
+}
+
+fn any_network() -> impl Strategy<Value = (usize, Vec<Vec<usize>>, bool)> {
+    let seeds = prop::collection::vec(prop::collection::vec(0usize..1000, 2..7), 1..4);
+    (0usize..7, seeds, prop::bool::weighted(0.2))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+    #[test]
+    fn random_networks_are_embedded((kind, seeds, forced) in any_network()) {
+        let mesh = mesh(kind);
+        let mut network = CurveNetwork { curves: walks(&mesh, &seeds), ..CurveNetwork::default() };
+        network.options.force_ribbons = forced;
+        let embedding = embed(&network, &mesh);
+        prop_assert!(embedding.is_ok(), "{kind}: {:?}: {}", network.curves, embedding.unwrap_err());
+        let embedding = embedding.unwrap();
+        prop_assert!(embedding.warnings.iter().all(|warning| warning.code() != "W_X_OVERLAP"));
+        check(&format!("{kind}: {:?}", network.curves), &mesh, &network, &embedding);
+    }
+}
+
+#[test]
+fn tags_and_holes_stay_with_their_faces() {
+    let mut mesh = shapes::grid(4, 4);
+    mesh.holes = vec![0];
+    mesh.creases.push(ogee::Crease { vertices: [18, 19], sharpness: ogee::Sharpness::Finite(2.5) });
+    let mut network = CurveNetwork::default();
+    network.curves.push(NetworkCurve {
+        name: "bent".into(),
+        vertices: vec![2, 7, 6, 5],
+        ..NetworkCurve::default()
+    });
+    for splits in [0, 1] {
+        network.options.pre_split = PreSplit::Fixed(splits);
+        let embedding = embed(&network, &mesh).unwrap();
+        let level = Level::new(&embedding.mesh).unwrap();
+        assert_eq!(level.semi_sharp_edges().count(), 1 << splits);
+        assert!(level.semi_sharp_edges().all(|(_, s)| s == 2.5 - f64::from(splits)));
+        // Whatever the hole was cut into is a hole: seen from above, it covers the same corner.
+        let topology = level.topology();
+        for f in (0..topology.face_count() as u32).map(FaceId) {
+            let corners: Vec<Vec3> =
+                topology.halfedges(f).map(|h| embedding.mesh.points[topology.origin(h).index()]).collect();
+            let middle = corners.iter().fold(Vec3::ZERO, |sum, &p| sum + p) / corners.len() as f64;
+            let hole = embedding.mesh.holes.contains(&f.0);
+            if hole {
+                assert!(middle.x < 1.3 && middle.y < 1.3, "face {f} at {middle:?}");
+            }
+            if middle.x < 0.7 && middle.y < 0.7 {
+                assert!(hole, "face {f} at {middle:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn meeting_points_that_share_a_vertex_are_told_of() {
+    // Two curves end side by side, one edge apart.
+    let curve = |name: &str, vertices: &[u32]| NetworkCurve {
+        name: name.into(),
+        vertices: vertices.to_vec(),
+        ..NetworkCurve::default()
+    };
+    let mesh = shapes::grid(6, 6);
+    let mut network = CurveNetwork {
+        curves: vec![curve("a", &[2, 9, 16]), curve("b", &[4, 11, 18])],
+        ..CurveNetwork::default()
+    };
+    network.options.pre_split = PreSplit::Fixed(0);
+    let crowded = embed(&network, &mesh).unwrap();
+    check("crowded", &mesh, &network, &crowded);
+    let overlaps = crowded.warnings.iter().filter(|warning| warning.code() == "W_X_OVERLAP");
+    assert_eq!(overlaps.map(|warning| warning.vertex()).collect::<Vec<_>>(), [10, 17, 24]);
+    network.options.pre_split = PreSplit::Auto;
+    let roomy = embed(&network, &mesh).unwrap();
+    check("roomy", &mesh, &network, &roomy);
+    assert_eq!((roomy.splits, roomy.warnings.len()), (1, 0));
+}
+
+#[test]
+fn nothing_is_changed_where_nothing_may_be() {
+    let mesh = shapes::grid(5, 5);
+    let mut network = CurveNetwork::default();
+    network.options.repair = false;
+    let mut end_inside = |path: &[u32]| {
+        network.curves =
+            vec![NetworkCurve { name: "a".into(), vertices: path.to_vec(), ..NetworkCurve::default() }];
+        embed(&network, &mesh).map(|embedding| embedding.mesh.points.len()).map_err(|error| error.code())
+    };
+    assert_eq!(end_inside(&[2, 8, 14, 20]), Ok(36));
+    // A corner of a path; a third curve's worth of edges is missing at the end of two that meet at a right angle.
+    assert_eq!(end_inside(&[2, 8, 9, 10]), Err("E_PATH_VALENCE"));
+    network.curves.push(NetworkCurve {
+        name: "b".into(),
+        vertices: vec![14, 15, 16, 17],
+        ..Default::default()
+    });
+    network.curves[0].vertices = vec![2, 8, 14];
+    assert_eq!(embed(&network, &mesh).unwrap_err().code(), "E_PATH_VALENCE");
+}
+
+/// A grid in which so many faces right of the middle vertex, 14, are one polygon.
+fn grid_with_polygon(merged: u32) -> ControlMesh {
+    let mut mesh = shapes::grid(5, 5);
+    let gone: Vec<[u32; 4]> = (14..14 + merged).map(|v| [v, v + 1, v + 7, v + 6]).collect();
+    let mut faces = FaceList::new();
+    mesh.faces.iter().filter(|face| !gone.iter().any(|gone| *face == gone)).for_each(|face| faces.push(face));
+    faces.push(&(14..=14 + merged).chain((20..=20 + merged).rev()).collect::<Vec<u32>>());
+    mesh.faces = faces;
+    mesh
+}
+
+fn embedded(mesh: &ControlMesh, curves: Vec<NetworkCurve>) -> Embedding {
+    let network = CurveNetwork { curves, ..CurveNetwork::default() };
+    let embedding = embed(&network, mesh).unwrap();
+    check("by hand", mesh, &network, &embedding);
+    embedding
+}
+
+fn path(vertices: &[u32]) -> NetworkCurve {
+    NetworkCurve { name: format!("{vertices:?}"), vertices: vertices.to_vec(), ..NetworkCurve::default() }
+}
+
+#[test]
+fn a_ring_with_a_hexagon_is_no_x_configuration_yet() {
+    let embedding = embedded(&grid_with_polygon(2), vec![path(&[2, 8, 14])]);
+    assert_eq!((embedding.splits, embedding.x_configurations[0].ring.len()), (0, 4));
+}
+
+#[test]
+fn curves_side_by_side_get_a_row_between_them() {
+    let embedding =
+        embedded(&shapes::grid(5, 5), vec![path(&[2, 8, 14, 20, 26, 32]), path(&[3, 9, 15, 21, 27, 33])]);
+    assert_eq!(embedding.splits, 0);
+    assert!(embedding.mesh.points.len() > 36);
+}
+
+#[test]
+fn two_corners_of_a_chain_in_one_face_get_a_chord_each() {
+    // The octagon lies in a sector of 200 degrees, which needs a dummy port.
+    let mesh = grid_with_polygon(3);
+    let turned = |vertices: &[u32], degrees: f64| {
+        let at = |&v: &u32| mesh.points[v as usize];
+        let direction = Vec3::new(degrees.to_radians().cos(), degrees.to_radians().sin(), 0.0);
+        let mut control: Vec<Vec3> = vertices.iter().map(at).collect();
+        control[1] = control[0] + direction;
+        NetworkCurve { control: Some(control), ..path(vertices) }
+    };
+    let curves =
+        vec![turned(&[14, 15, 9, 3], 0.0), turned(&[14, 20, 26, 32], 200.0), turned(&[14, 13, 12], 280.0)];
+    let embedding = embedded(&mesh, curves);
+    assert_eq!((embedding.splits, embedding.x_configurations[0].ring.len()), (0, 8));
+}
