@@ -2,11 +2,13 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod golden;
+mod networks;
 
 use golden::{documents, faces, index, list, number, point, points};
+use networks::{cases, curves};
 use ogee::curve_network::{
-    Crossing, CurveNetwork, NetworkCurve, NetworkError, NetworkPlan, NetworkWarning, Placing, PreSplit,
-    TargetCurve, XMatrix, XRing, least_turn, place, ring_normal,
+    Crossing, CurveNetwork, NetworkError, NetworkPlan, NetworkWarning, Placing, PreSplit, TargetCurve,
+    XMatrix, XRing, least_turn, place, ring_normal,
 };
 use ogee::{ControlMesh, Topology, Vec3};
 use serde_json::Value;
@@ -20,24 +22,8 @@ fn document(wanted: &str) -> Value {
     documents.swap_remove(found.unwrap_or_else(|| panic!("there is no {wanted}"))).1
 }
 
-/// The cases that have a mesh and its preparation.
-fn cases() -> Vec<(String, Value)> {
-    let mut cases = documents("curve-networks");
-    cases.retain(|(_, document)| !document["prepared"].is_null());
-    assert_eq!(cases.len(), 15);
-    cases
-}
-
 fn network(input: &Value, options: &Value) -> CurveNetwork {
-    let mut network = CurveNetwork::default();
-    for curve in list(&input["curves"]) {
-        network.curves.push(NetworkCurve {
-            name: curve["name"].as_str().unwrap().to_owned(),
-            vertices: list(&curve["vertices"]).iter().map(index).collect(),
-            closed: curve["closed"].as_bool().unwrap(),
-            control: (!curve["control"].is_null()).then(|| points(&curve["control"])),
-        });
-    }
+    let mut network = CurveNetwork { curves: curves(input), ..CurveNetwork::default() };
     network.options.placing = match options["x_mode"].as_str() {
         Some("parallelogram") => Placing::Parallelogram,
         _ => Placing::Eigen,

@@ -3,34 +3,11 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod golden;
+mod networks;
 
-use golden::{faces, index, list, number, points};
-use ogee::{
-    Boundary, ControlMesh, Corner, FaceId, Flags, HalfedgeId, Level, LimitSurface, Location, Meeting,
-    PatchTable, Sharpness, Vec3,
-};
-use serde_json::Value;
-
-/// The cage of a document: `prepared` with its meetings.
-fn prepared(cage: &Value) -> ControlMesh {
-    let mut mesh = ControlMesh::new(points(&cage["vertices"]), faces(&cage["faces"]));
-    mesh.scheme.boundary = Boundary::EdgeOnly;
-    let corner = |vertex| Corner { vertex: index(vertex), sharpness: Sharpness::Infinite };
-    mesh.corners = list(&cage["corners"]).iter().map(corner).collect();
-    let meeting = |x: &Value| Meeting {
-        vertex: index(&x["center"]),
-        ports: list(&x["ring"]).iter().step_by(2).map(index).collect(),
-        t: number(&x["t"]),
-    };
-    mesh.meetings = list(&cage["x_vertices"]).iter().map(meeting).collect();
-    mesh
-}
-
-fn documents() -> Vec<(String, Value)> {
-    let mut all = golden::documents("curve-networks");
-    all.retain(|(_, document)| !document["prepared"].is_null());
-    all
-}
+use golden::{index, list, points};
+use networks::{along, cases, prepared};
+use ogee::{ControlMesh, FaceId, Flags, Level, LimitSurface, PatchTable, Vec3};
 
 /// Points with no order in the meetings' rings, which any rule would forgive.
 fn shaken(mesh: &ControlMesh) -> ControlMesh {
@@ -67,31 +44,9 @@ fn spline(control: &[Vec3], closed: bool, u: f64) -> Vec3 {
             + t * t * t * at(i + 2))
 }
 
-/// Where the edge from `a` to `b` is, `t` along it, on a quad that has it.
-fn along(level: &Level, table: &PatchTable, [a, b]: [u32; 2], t: f64) -> Location {
-    let topology = level.topology();
-    let (h, t) = (0..topology.halfedge_count() as u32)
-        .map(HalfedgeId)
-        .find_map(|h| match (topology.origin(h).0, topology.target(h).0) {
-            (from, to) if (from, to) == (a, b) => Some((h, t)),
-            (from, to) if (from, to) == (b, a) => Some((h, 1.0 - t)),
-            _ => None,
-        })
-        .unwrap();
-    let face = topology.face(h);
-    assert_eq!(topology.face_size(face), 4, "faces at curves are quads");
-    let (u, v) = match h.0 - topology.first(face).0 {
-        0 => (t, 0.0),
-        1 => (1.0, t),
-        2 => (1.0 - t, 1.0),
-        _ => (0.0, 1.0 - t),
-    };
-    table.locate(face, None, u, v).unwrap()
-}
-
 #[test]
 fn curves_lie_on_the_surface() {
-    for (name, document) in documents() {
+    for (name, document) in cases() {
         let mesh = prepared(&document["prepared"]);
         let level = Level::new(&mesh).unwrap();
         let table = PatchTable::new(&level);
@@ -128,7 +83,7 @@ fn places() -> Vec<[f64; 2]> {
 #[test]
 fn one_step_has_the_same_surface() {
     let mut meetings = 0;
-    for (name, document) in documents() {
+    for (name, document) in cases() {
         let mesh = shaken(&prepared(&document["prepared"]));
         meetings += mesh.meetings.len();
         let level = Level::new(&mesh).unwrap();

@@ -3,14 +3,16 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod golden;
+mod networks;
 
-use golden::{documents, faces, index, list, number, points};
+use golden::{faces, index, list, number, points};
+use networks::{along, cases, curves};
 use ogee::curve_network::{
     Crossing, CurveNetwork, Embedding, NetworkCurve, Placing, PreSplit, XMatrix, XRing, control_point, embed,
 };
 use ogee::{
-    ControlMesh, FaceId, FaceList, Level, LimitSurface, Location, PatchTable, Topology, Valence, Vec3,
-    VertexId, limit_vertices, shapes,
+    ControlMesh, FaceId, FaceList, Level, LimitSurface, PatchTable, Topology, Valence, Vec3, VertexId,
+    limit_vertices, shapes,
 };
 use proptest::prelude::*;
 use std::collections::BTreeSet;
@@ -32,20 +34,6 @@ fn borders(mesh: &Topology) -> usize {
         }
     }
     count
-}
-
-/// Where the edge from `a` to `b` is, `t` along it, on the quad on its left.
-fn along(level: &Level, table: &PatchTable, [a, b]: [u32; 2], t: f64) -> Location {
-    let topology = level.topology();
-    let h = topology.ring(VertexId(a)).find(|&h| topology.target(h).0 == b).unwrap();
-    let face = topology.face(h);
-    let (u, v) = match h.0 - topology.first(face).0 {
-        0 => (t, 0.0),
-        1 => (1.0, t),
-        2 => (1.0 - t, 1.0),
-        _ => (0.0, 1.0 - t),
-    };
-    table.locate(face, None, u, v).unwrap()
 }
 
 /// All that is promised about the mesh and the curves in it.
@@ -145,22 +133,11 @@ fn check(name: &str, mesh: &ControlMesh, network: &CurveNetwork, embedding: &Emb
 #[test]
 fn golden_networks_are_embedded() {
     let mut same_mesh = 0;
-    for (name, document) in documents("curve-networks") {
+    for (name, document) in cases() {
         let prepared = &document["prepared"];
-        if prepared.is_null() {
-            continue;
-        }
         let input = &document["input"];
         let mesh = ControlMesh::new(points(&input["vertices"]), faces(&input["faces"]));
-        let mut network = CurveNetwork::default();
-        for curve in list(&input["curves"]) {
-            network.curves.push(NetworkCurve {
-                name: curve["name"].as_str().unwrap().to_owned(),
-                vertices: list(&curve["vertices"]).iter().map(index).collect(),
-                closed: curve["closed"].as_bool().unwrap(),
-                control: (!curve["control"].is_null()).then(|| points(&curve["control"])),
-            });
-        }
+        let mut network = CurveNetwork { curves: curves(input), ..CurveNetwork::default() };
         let options = &input["options"];
         if options["x_mode"] == "parallelogram" {
             network.options.placing = Placing::Parallelogram;

@@ -2,29 +2,13 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod golden;
+mod networks;
 
 use std::collections::HashMap;
 
-use golden::{faces, index, list, number, points};
-use ogee::{
-    Boundary, ControlMesh, Corner, FaceId, HalfedgeId, Level, Meeting, Sharpness, Topology, Vec3, VertexId,
-};
-use serde_json::Value;
-
-/// The cage of a document: `prepared` with its meetings.
-fn prepared(cage: &Value) -> ControlMesh {
-    let mut mesh = ControlMesh::new(points(&cage["vertices"]), faces(&cage["faces"]));
-    mesh.scheme.boundary = Boundary::EdgeOnly;
-    let corner = |vertex| Corner { vertex: index(vertex), sharpness: Sharpness::Infinite };
-    mesh.corners = list(&cage["corners"]).iter().map(corner).collect();
-    let meeting = |x: &Value| Meeting {
-        vertex: index(&x["center"]),
-        ports: list(&x["ring"]).iter().step_by(2).map(index).collect(),
-        t: number(&x["t"]),
-    };
-    mesh.meetings = list(&cage["x_vertices"]).iter().map(meeting).collect();
-    mesh
-}
+use golden::{index, list, points};
+use networks::{cases, prepared};
+use ogee::{FaceId, HalfedgeId, Level, Topology, Vec3, VertexId};
 
 /// The faces of the next level in the numbers of the golden data: vertices, edges in the order of first meeting them, faces.
 fn split(faces: &[Vec<u32>], vertices: u32) -> (Vec<Vec<u32>>, u32) {
@@ -65,10 +49,7 @@ fn farthest(topology: &Topology, ours: &[Vec3], faces: &[Vec<u32>], theirs: &[Ve
 #[test]
 fn steps_are_the_golden_ones() {
     let mut compared = 0;
-    for (name, document) in golden::documents("curve-networks") {
-        if document["prepared"].is_null() {
-            continue;
-        }
+    for (name, document) in cases() {
         let mesh = prepared(&document["prepared"]);
         let tolerance = 1e-12 * mesh.size().max(1.0);
         let mut level = Level::new(&mesh).unwrap();
