@@ -25,6 +25,20 @@ fn refused(network: &CurveNetwork, mesh: &ControlMesh) -> NetworkError {
 }
 
 #[test]
+fn cages_have_one_network() {
+    let across = network(vec![curve("first", &[8, 14]), curve("second", &[14, 13])]);
+    let embedded = embed(&across, &grid()).unwrap().mesh;
+    assert!(!embedded.meetings.is_empty());
+    let again = network(vec![curve("spine", &[2, 8, 14, 20, 26, 32])]);
+    let error = embed(&again, &embedded).unwrap_err();
+    assert_eq!(error.code(), "E_MEETING_ALREADY");
+    assert!(
+        error.to_string().contains(&format!("at vertex {} already", embedded.meetings[0].vertex)),
+        "{error}"
+    );
+}
+
+#[test]
 fn curves_along_sharp_edges_are_refused() {
     let along = network(vec![curve("spine", &[2, 8, 14, 20, 26, 32])]);
     let sharp = |a, b, sharpness| {

@@ -38,6 +38,10 @@ pub enum NetworkDefect {
     ZeroTangent { curve: String, vertex: u32 },
     #[error("curve {curve} meets sharp edge {from}-{to}; take the crease away, or end the curve before it")]
     Crease { curve: String, from: u32, to: u32 },
+    #[error(
+        "the cage has a meeting of curves at vertex {vertex} already; take those curves and these into one network"
+    )]
+    MeetingAlready { vertex: u32 },
     #[error("curve {curve} goes through sharp vertex {vertex}; take the tag away")]
     SharpVertex { curve: String, vertex: u32 },
     #[error(
@@ -100,6 +104,7 @@ impl NetworkDefect {
             NetworkDefect::TargetNotFinite { .. } => "E_TARGET_NOT_FINITE",
             NetworkDefect::ZeroTangent { .. } => "E_ZERO_TANGENT",
             NetworkDefect::Crease { .. } | NetworkDefect::SharpVertex { .. } => "E_CREASE",
+            NetworkDefect::MeetingAlready { .. } => "E_MEETING_ALREADY",
             NetworkDefect::MeetingPointMismatch { .. } => "E_MEETING_POINT_MISMATCH",
             NetworkDefect::BorderMixed { .. } => "E_BORDER_MIXED",
             NetworkDefect::BorderMeeting { .. } => "E_BORDER_MEETING",

@@ -84,6 +84,9 @@ impl NetworkPlan {
         let topology = Topology::new(mesh).map_err(|error| NetworkError {
             defects: error.defects.into_iter().map(NetworkDefect::Mesh).collect(),
         })?;
+        // Room for new curves would not spare what lies around old ones.
+        let already = mesh.meetings.iter().map(|old| NetworkDefect::MeetingAlready { vertex: old.vertex });
+        refuse(already.collect())?;
         refuse(check_curves(network, mesh, &topology))?;
         let incidence = Incidence::new(network, &topology);
         refuse(check_together(network, mesh, &topology, &incidence))?;

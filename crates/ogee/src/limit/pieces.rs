@@ -137,9 +137,8 @@ impl LimitSurface<'_> {
                 let net = walk.control_net(basis, tile);
                 FacePiece::Leaf(std::array::from_fn(|k| narrow(add(net[usize::from(turned[k])], base))))
             };
-            let mut own = Some(inner);
             let quarters = [0, 1, 2, 3].map(|quarter| match from_own(quarter) {
-                0 => own.take().unwrap_or_else(|| unreachable!("one of four is at the corner")),
+                0 => std::mem::replace(&mut inner, FacePiece::Leaf([Vec3::ZERO; 16])),
                 tile => FacePiece::Split(Box::new(
                     [0, 1, 2, 3].map(|smaller| leaf(4 * (tile - 1) + from_own(smaller))),
                 )),

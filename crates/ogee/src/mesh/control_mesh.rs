@@ -16,7 +16,7 @@ pub struct ControlMesh {
     pub corners: Vec<Corner>,
     /// Faces that take part in refinement but are no part of the surface.
     pub holes: Vec<u32>,
-    /// Vertices at which curves of a network meet.
+    /// Vertices at which curves of a network meet. If a vertex is named twice the last one counts.
     pub meetings: Vec<Meeting>,
     /// Choices of the subdivision scheme.
     pub scheme: Scheme,
