@@ -10,6 +10,7 @@
 //! | `evaluation` | samples in a stream |
 //! | `inspection` | figures on quality: as JSON, as a table, as a page |
 //! | `output` | whole files or none |
+//! | `part` | making and writing parts |
 //! | `error` | failures, with their place and exit code |
 //! | `report` | figures as text and as JSON |
 //! | `progress` | a spinner for long work |
@@ -30,6 +31,7 @@ mod gpu;
 mod inspection;
 mod names;
 mod output;
+mod part;
 mod progress;
 mod report;
 mod subject;

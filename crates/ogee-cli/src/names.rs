@@ -4,6 +4,7 @@ use clap::builder::{PossibleValue, TypedValueParser};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Command, Error};
 use ogee::convert::{Method, UpAxis};
+use ogee::curve_network::{Crossing, Placing};
 use ogee::{Boundary, Creasing, Derivatives};
 use ogee_formats::step::{Schema, Unit};
 
@@ -78,6 +79,14 @@ pub(crate) const DERIVATIVES: Names<Derivatives> = Names {
     elsewhere: &[],
 };
 
+pub(crate) const PLACINGS: Names<Placing> = Names {
+    values: &[("eigen", Placing::Eigen), ("parallelogram", Placing::Parallelogram), ("keep", Placing::Keep)],
+    elsewhere: &[],
+};
+
+pub(crate) const CROSSINGS: Names<Crossing> =
+    Names { values: &[("pin", Crossing::Pin), ("smooth", Crossing::Smooth)], elsewhere: &[] };
+
 /// A format, told by a name that is also the extension of its files.
 pub(crate) trait Format: Copy + 'static {
     /// All names; the first of a format is the usual one.
@@ -116,7 +125,7 @@ pub(crate) fn formats<F: Format + Send + Sync>() -> Names<F> {
 }
 
 /// Commands and options that the program has but not this build.
-const ELSEWHERE: [&str; 6] = ["network", "lens", "batch", "view", "--lens", "--iges"];
+const ELSEWHERE: [&str; 5] = ["lens", "batch", "view", "--lens", "--iges"];
 
 /// What to say where an unknown word is one of another build.
 pub(crate) fn not_in_this_build(error: &Error) -> Option<String> {

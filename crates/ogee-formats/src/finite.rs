@@ -5,6 +5,8 @@ use std::io;
 use ogee::Vec3;
 use ogee::convert::Part;
 
+use crate::curves::NamedCurve;
+
 /// `InvalidData` if a coordinate or a knot of the part is infinite or NaN. Writers ask before their first
 /// byte, so a refused part leaves nothing behind.
 pub(crate) fn require_finite(part: &Part) -> io::Result<()> {
@@ -29,6 +31,17 @@ pub(crate) fn require_finite(part: &Part) -> io::Result<()> {
     Ok(())
 }
 
+/// The same for curves.
+pub(crate) fn require_finite_curves(curves: &[NamedCurve]) -> io::Result<()> {
+    for NamedCurve { name, curve } in curves {
+        let knots = curve.knots.knots().iter().all(|knot| knot.is_finite());
+        if !knots || !curve.points.iter().all(|point| point.is_finite()) {
+            return Err(refused(&format!("curve {name}")));
+        }
+    }
+    Ok(())
+}
+
 fn refused(place: &str) -> io::Error {
-    io::Error::new(io::ErrorKind::InvalidData, format!("{place} of the part has a number that is not finite"))
+    io::Error::new(io::ErrorKind::InvalidData, format!("{place} has a number that is not finite"))
 }

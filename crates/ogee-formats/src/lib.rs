@@ -23,10 +23,12 @@
 //! | files | read with | written with |
 //! | --- | --- | --- |
 //! | cages: OBJ with subdivision tags, OFF, PLY, JSON | [`read_cage`] | [`obj::write_cage`], [`json::write_cage`] |
+//! | curves on a cage: JSON, lines of OBJ | [`network::read`] | [`network::write_obj`], [`network::write_json`] |
 //! | refined meshes: OBJ, PLY, OFF, STL, GLB, JSON | | [`write_mesh`] |
 //! | parts: STEP | checked with [`step::check`] | [`step::write`] |
 //! | parts: patches in JSON | [`patches::read`] | [`patches::write`] |
 //! | parts: BezierView | | [`bv::write`] |
+//! | curves: STEP, OBJ | | [`curves::write_step`], [`curves::write_obj`] |
 //! | lines on a surface: SVG, OBJ, JSON | | [`lines::write_svg`], [`lines::write_obj`], [`lines::write_json`] |
 //! | samples: JSON lines, CSV | [`samples::AddressReader`] | [`samples::write_sample`] |
 //!
@@ -35,12 +37,14 @@
 mod builder;
 pub mod bv;
 mod cage;
+pub mod curves;
 mod error;
 mod finite;
 mod glb;
 pub mod json;
 pub mod lines;
 mod mesh;
+pub mod network;
 mod number;
 pub mod obj;
 pub mod off;

@@ -36,6 +36,8 @@ struct Report<'a> {
     creases: Creases,
     corners: usize,
     holes: usize,
+    /// Where curves meet.
+    meetings: usize,
     valence2: Vec<u32>,
     bbox: Option<[[f64; 3]; 2]>,
     boundary: &'static str,
@@ -91,6 +93,7 @@ impl Info {
             },
             corners: statistics.corners,
             holes: statistics.holes,
+            meetings: mesh.meetings.len(),
             valence2: statistics.valence_two.iter().map(|vertex| vertex.0).collect(),
             bbox: statistics.bounding_box.map(|bbox| bbox.map(<[f64; 3]>::from)),
             boundary: match mesh.scheme.boundary {
@@ -150,6 +153,9 @@ fn table(report: &Report<'_>) -> Table {
     }
     if report.holes > 0 {
         table.row("holes", report.holes.to_string());
+    }
+    if report.meetings > 0 {
+        table.row("meetings", format!("of curves at {}", count(report.meetings, "vertex", "vertices")));
     }
     if !report.valence2.is_empty() {
         let first: Vec<String> = report.valence2.iter().take(MOST_PIECES).map(u32::to_string).collect();

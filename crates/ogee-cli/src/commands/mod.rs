@@ -8,6 +8,7 @@ pub(crate) mod info;
 pub(crate) mod inspect;
 pub(crate) mod lines;
 mod man;
+pub(crate) mod network;
 pub(crate) mod refine;
 pub(crate) mod render;
 
@@ -24,6 +25,7 @@ pub(crate) fn run(command: &Command, console: &Console) -> Result<ExitCode, Fail
         Command::Refine(refine) => refine.run(console),
         Command::Eval(eval) => eval.run(console),
         Command::Lines(lines) => lines.run(console),
+        Command::Network(network) => network.run(console),
         Command::Convert(convert) => convert.run(console),
         Command::Inspect(inspect) => inspect.run(console),
         Command::Render(render) => render.run(console),

@@ -11,13 +11,16 @@
 //!
 //! of which only the first two have to be there. Everything is numbered from 0; a sharpness of 10 or more never
 //! fades. A meeting of curves is `{"vertex": v, "ports": [a, b, ..], "t": 0.25}`, neighbours counter-clockwise. Cages with lens
-//! shapes are refused: they follow other rules than these.
+//! shapes are refused: they follow other rules than these. The keys of a network of curves ([`crate::network`]) may stand beside
+//! these; they are not for this reader.
 
 mod names;
 mod parse;
 mod read;
 mod write;
 
+pub(crate) use parse::once;
 pub use read::read;
+pub(crate) use read::syntax;
 pub use write::write_cage;
-pub(crate) use write::write_view;
+pub(crate) use write::{write_cage_with, write_view};

@@ -5,6 +5,9 @@ use std::fmt;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
+/// Keys of a network of curves that stands in the same file.
+const OF_NETWORKS: [&str; 3] = ["curves", "options", "meeting"];
+
 /// The values of the keys, as the file gives them.
 #[derive(Default)]
 pub(super) struct RawCage {
@@ -83,7 +86,9 @@ impl<'de> Deserialize<'de> for RawCage {
                         "lens" => once(&mut cage.has_lens, &mut map, "lens")?,
                         _ => {
                             map.next_value::<IgnoredAny>()?;
-                            cage.unknown.push(key);
+                            if !OF_NETWORKS.contains(&key.as_str()) {
+                                cage.unknown.push(key);
+                            }
                         }
                     }
                 }
@@ -95,7 +100,7 @@ impl<'de> Deserialize<'de> for RawCage {
 }
 
 /// Reads the value of a key that may stand once; `null` is the same as no key.
-fn once<'de, T: Deserialize<'de>, M: MapAccess<'de>>(
+pub(crate) fn once<'de, T: Deserialize<'de>, M: MapAccess<'de>>(
     slot: &mut Option<T>,
     map: &mut M,
     key: &'static str,

@@ -40,7 +40,7 @@ pub fn read(bytes: &[u8]) -> Result<CageFile, ReadError> {
 }
 
 /// The complaint of the JSON parser, with its line.
-fn syntax(error: &serde_json::Error) -> Fault {
+pub(crate) fn syntax(error: &serde_json::Error) -> Fault {
     let whole = error.to_string();
     let suffix = format!(" at line {} column {}", error.line(), error.column());
     let message = format!("column {}: {}", error.column(), whole.strip_suffix(&suffix).unwrap_or(&whole));

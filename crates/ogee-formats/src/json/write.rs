@@ -3,6 +3,7 @@
 use std::fmt::{self, Display};
 use std::io::{self, BufWriter, Write};
 
+use ogee::curve_network::NetworkCurve;
 use ogee::{ControlMesh, FaceVaryingRule, Sharpness};
 
 use super::names::{BOUNDARIES, CREASINGS, FACE_VARYING_RULES, name};
@@ -14,12 +15,23 @@ use crate::number::Shortest;
 /// # Errors
 /// If a number is not finite, which JSON cannot say; and those of `out`.
 pub fn write_cage(mesh: &ControlMesh, out: impl Write) -> io::Result<()> {
+    write_cage_with(mesh, &[], out)
+}
+
+/// The same with the curves that lie on the cage, where there are any.
+pub(crate) fn write_cage_with(
+    mesh: &ControlMesh,
+    curves: &[NetworkCurve],
+    out: impl Write,
+) -> io::Result<()> {
     let uvs = mesh.uv.iter().flat_map(|uv| uv.values.iter().flatten());
     let points = mesh.points.iter().flat_map(|p| [p.x, p.y, p.z]);
     let sharpness = mesh.creases.iter().map(|crease| crease.sharpness);
     let sharpness = sharpness.chain(mesh.corners.iter().map(|corner| corner.sharpness));
     let is_number = |sharpness: Sharpness| !sharpness.value().is_nan();
     let shapes = mesh.meetings.iter().map(|meeting| meeting.t);
+    let control = curves.iter().filter_map(|curve| curve.control.as_ref()).flatten();
+    let points = points.chain(control.flat_map(|p| [p.x, p.y, p.z]));
     if !points.chain(uvs.copied()).chain(shapes).all(f64::is_finite) || !sharpness.into_iter().all(is_number)
     {
         return Err(io::Error::new(
@@ -61,6 +73,10 @@ pub fn write_cage(mesh: &ControlMesh, out: impl Write) -> io::Result<()> {
                 format!("{{\"vertex\":{},\"ports\":{ports},\"t\":{t}}}", meeting.vertex)
             }),
         )?;
+    }
+    if !curves.is_empty() {
+        write!(out, ",\n\"curves\": ")?;
+        list(&mut out, curves.iter().map(Curve))?;
     }
     if let Some(uv) = &mesh.uv {
         let faces = mesh.faces.starts().windows(2).map(|ends| {
@@ -124,6 +140,26 @@ impl<const N: usize> Display for Numbers<N> {
             write!(f, "{}{}", if i == 0 { '[' } else { ',' }, Shortest(x))?;
         }
         f.write_str("]")
+    }
+}
+
+/// Displays a curve.
+struct Curve<'a>(&'a NetworkCurve);
+
+impl Display for Curve<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let NetworkCurve { name, vertices, closed, control, .. } = self.0;
+        // As JSON spells it, with its quotes.
+        let name = serde_json::Value::from(name.as_str());
+        write!(f, "{{\"name\":{name},\"vertices\":{},\"closed\":{closed}", Indices(vertices))?;
+        if let Some(control) = control {
+            f.write_str(",\"control\":[")?;
+            for (i, p) in control.iter().enumerate() {
+                write!(f, "{}{}", if i == 0 { "" } else { "," }, Numbers([p.x, p.y, p.z]))?;
+            }
+            f.write_str("]")?;
+        }
+        f.write_str("}")
     }
 }
 

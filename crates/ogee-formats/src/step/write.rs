@@ -72,10 +72,7 @@ fn representations<W: Write>(
     solids: &[Id],
     sheets: &[Id],
 ) -> io::Result<()> {
-    let origin = file.point(ogee::Vec3::ZERO)?;
-    let axis = file.entity(format_args!("DIRECTION('',(0.,0.,1.))"))?;
-    let across = file.entity(format_args!("DIRECTION('',(1.,0.,0.))"))?;
-    let placement = file.entity(format_args!("AXIS2_PLACEMENT_3D('',{origin},{axis},{across})"))?;
+    let placement = placement(file)?;
     let mut represent = |kind: &str, bodies: &[Id]| {
         let items = List(std::iter::once(&placement).chain(bodies));
         file.entity(format_args!("{kind}('',{items},{units})"))
@@ -96,6 +93,14 @@ fn representations<W: Write>(
     }
     file.entity(format_args!("SHAPE_DEFINITION_REPRESENTATION({definition},{main})"))?;
     Ok(())
+}
+
+/// The origin and the axes of a representation.
+pub(super) fn placement<W: Write>(file: &mut Emitter<'_, W>) -> io::Result<Id> {
+    let origin = file.point(ogee::Vec3::ZERO)?;
+    let axis = file.entity(format_args!("DIRECTION('',(0.,0.,1.))"))?;
+    let across = file.entity(format_args!("DIRECTION('',(1.,0.,0.))"))?;
+    file.entity(format_args!("AXIS2_PLACEMENT_3D('',{origin},{axis},{across})"))
 }
 
 /// A solid. All shells are written outward; hollows are turned where they are used.
@@ -129,7 +134,7 @@ fn shell<W: Write>(file: &mut Emitter<'_, W>, kind: &str, shell: &Shell) -> io::
     let mut edges = Vec::with_capacity(shell.edges.len());
     for edge in &shell.edges {
         let [start, end] = [edge.start, edge.end].map(|vertex| vertices[vertex as usize]);
-        let curve = curve(file, &edge.curve, &mut points)?;
+        let curve = curve(file, "", &edge.curve, &mut points)?;
         edges.push(file.entity(format_args!("EDGE_CURVE('',{start},{end},{curve},.T.)"))?);
     }
     let mut faces = Vec::with_capacity(shell.faces.len());
@@ -158,7 +163,13 @@ fn face<W: Write>(
     file.entity(format_args!("ADVANCED_FACE('{name}',({bound}),{surface},.T.)"))
 }
 
-fn curve<W: Write>(file: &mut Emitter<'_, W>, curve: &NurbsCurve, points: &mut Vec<Id>) -> io::Result<Id> {
+/// A curve; `points` is room to work in.
+pub(super) fn curve<W: Write>(
+    file: &mut Emitter<'_, W>,
+    name: &str,
+    curve: &NurbsCurve,
+    points: &mut Vec<Id>,
+) -> io::Result<Id> {
     points.clear();
     for &point in &curve.points {
         points.push(file.point(point)?);
@@ -167,7 +178,8 @@ fn curve<W: Write>(file: &mut Emitter<'_, W>, curve: &NurbsCurve, points: &mut V
     let [times, knots] = knot_lists(&curve.knots);
     let closed = Logical(points.first() == points.last());
     file.entity(format_args!(
-        "B_SPLINE_CURVE_WITH_KNOTS('',{degree},{},.UNSPECIFIED.,{closed},.F.,{times},{knots},.UNSPECIFIED.)",
+        "B_SPLINE_CURVE_WITH_KNOTS({},{degree},{},.UNSPECIFIED.,{closed},.F.,{times},{knots},.UNSPECIFIED.)",
+        Text(name),
         List(&*points)
     ))
 }

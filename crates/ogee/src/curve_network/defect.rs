@@ -1,6 +1,6 @@
 //! Every reason why a network cannot be laid.
 
-use crate::mesh::Defect;
+use crate::mesh::{Defect, Place};
 
 /// Why a network was refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -87,6 +87,31 @@ impl NetworkError {
 }
 
 impl NetworkDefect {
+    /// Where in the cage, if it is at one place.
+    pub fn place(&self) -> Option<Place> {
+        match *self {
+            NetworkDefect::Mesh(ref defect) => defect.place(),
+            NetworkDefect::NotAnEdge { from, to, .. }
+            | NetworkDefect::SharedEdge { from, to, .. }
+            | NetworkDefect::Crease { from, to, .. }
+            | NetworkDefect::XAdjacent { from, to, .. } => Some(Place::Edge(from, to)),
+            NetworkDefect::CurveRepeats { vertex, .. }
+            | NetworkDefect::ZeroTangent { vertex, .. }
+            | NetworkDefect::MeetingAlready { vertex }
+            | NetworkDefect::SharpVertex { vertex, .. }
+            | NetworkDefect::MeetingPointMismatch { vertex, .. }
+            | NetworkDefect::BorderMixed { vertex, .. }
+            | NetworkDefect::BorderMeeting { vertex, .. }
+            | NetworkDefect::PathValence { vertex, .. }
+            | NetworkDefect::CrossingNotRegular { vertex, .. }
+            | NetworkDefect::Repair { vertex } => Some(Place::Vertex(vertex)),
+            NetworkDefect::CurveShort { .. }
+            | NetworkDefect::TargetLength { .. }
+            | NetworkDefect::TargetNotFinite { .. }
+            | NetworkDefect::Parameter { .. } => None,
+        }
+    }
+
     /// A stable name.
     pub fn code(&self) -> &'static str {
         match self {

@@ -28,6 +28,8 @@ pub struct Embedding {
     pub x_configurations: Vec<XConfiguration>,
     /// How often the cage that was given was split.
     pub splits: u32,
+    /// How many vertices repair put beside the curves.
+    pub inserted_vertices: usize,
     /// What is not as it was hoped for.
     pub warnings: Vec<NetworkWarning>,
 }
@@ -126,7 +128,8 @@ fn embed_split(
     move_paths(&mut room.points, &split, &sides);
     room.meetings = x_configurations.iter().map(XConfiguration::meeting).collect();
     let (segments, splits) = (split.segments, plan.pre_split);
-    Ok(Embedding { mesh: room, segments, sides, x_configurations, splits, warnings })
+    let inserted_vertices = room.points.len() - cage.points.len();
+    Ok(Embedding { mesh: room, segments, sides, x_configurations, splits, inserted_vertices, warnings })
 }
 
 fn path(segment: &Segment) -> TaggedPath {

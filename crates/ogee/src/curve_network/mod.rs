@@ -16,6 +16,7 @@ mod defect;
 mod embed;
 mod fold;
 mod incidence;
+mod measure;
 mod network;
 mod place;
 mod plan;
@@ -34,6 +35,7 @@ pub use complex::{Complex, control_point, reposition, rim_start, smooth_crossing
 pub use defect::{NetworkDefect, NetworkError};
 pub use embed::{Embedding, XConfiguration, embed};
 pub use fold::least_turn;
+pub use measure::{MeetingFigures, NetworkFigures};
 pub use network::{Crossing, CurveNetwork, MeetingOptions, NetworkCurve, NetworkOptions, Placing, PreSplit};
 pub use place::{Arrival, Placement, Site, place};
 pub use plan::{MeetingVertex, NetworkPlan, Segment, SegmentEnd, ring_normal};

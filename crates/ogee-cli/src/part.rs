@@ -1,0 +1,252 @@
+//! Making and writing parts: what `convert` and every other command that ends in CAD have in common.
+
+use std::io;
+use std::time::Instant;
+
+use clap::Args;
+use ogee::convert::{ConvertError, Method, Options, Packing, Part, UpAxis, to_part};
+use ogee::pccm::PccmError;
+use ogee::{ControlMesh, Vec3};
+use ogee_formats::step::{Schema, Unit};
+use ogee_formats::{bv, patches, step};
+use serde::Serialize;
+
+use crate::cage::Cage;
+use crate::error::{Exit, Failure, Finding};
+use crate::names::{METHODS, SCHEMAS, UNITS, UP_AXES};
+use crate::output::{Counter, Destination};
+use crate::report::{Table, count, figure};
+use crate::system;
+
+/// The options of a conversion.
+#[derive(Debug, Args)]
+pub(crate) struct PartArguments {
+    /// The construction: pccm and pccm-first are bicubic, bi5 is biquintic; all are tangent-continuous
+    #[arg(long, default_value = "pccm", value_parser = METHODS)]
+    pub(crate) method: Method,
+    /// Raise the level until patches and limit surface differ by less than this, in the unit of the file
+    #[arg(long, value_name = "D", value_parser = length, allow_negative_numbers = true)]
+    max_deviation: Option<f64>,
+    /// Steps of refinement before the conversion [default: the least that is right for the cage]
+    #[arg(short, long, value_name = "L")]
+    level: Option<u32>,
+    /// Join quads into large faces [default for STEP]
+    #[arg(long, overrides_with = "no_pack")]
+    pack: bool,
+    /// Write one face per quad [default for BezierView and JSON]
+    #[arg(long)]
+    no_pack: bool,
+    /// What a unit of the cage is
+    #[arg(long, default_value = "mm", value_parser = UNITS)]
+    pub(crate) unit: Unit,
+    /// The application protocol of STEP
+    #[arg(long, default_value = "214", value_parser = SCHEMAS)]
+    ap: Schema,
+    /// The name of the part [default: that of the output file]
+    #[arg(long)]
+    name: Option<String>,
+    /// The axis of the cage that points up; with y the part is turned so that z does
+    #[arg(long, value_name = "AXIS", value_parser = UP_AXES)]
+    up_axis: Option<UpAxis>,
+}
+
+/// A format of parts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum PartFormat {
+    Step,
+    BezierView,
+    Json,
+}
+
+/// A positive length.
+fn length(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(length) if length.is_finite() && length > 0.0 => Ok(length),
+        _ => Err("not a positive length".to_owned()),
+    }
+}
+
+/// Diagonal in millimetres below which the shape drowns in the tolerance of kernels.
+const SMALLEST_PART: f64 = 1e-3;
+
+/// The figures of a part, for programs.
+#[derive(Serialize)]
+pub(crate) struct PartReport {
+    method: &'static str,
+    level: u32,
+    cage_faces: usize,
+    patches: usize,
+    faces_written: usize,
+    edges: usize,
+    vertices: usize,
+    solids: usize,
+    shells: usize,
+    closed: bool,
+    unit: &'static str,
+    volume: Option<f64>,
+    area: f64,
+    bbox: [[f64; 3]; 2],
+    max_normal_angle_deg: f64,
+    max_gap: f64,
+    max_deviation: f64,
+    max_deviation_relative: f64,
+    max_curvature_jump: f64,
+    smooth_edges: usize,
+    sharp_edges: usize,
+}
+
+impl PartArguments {
+    /// Converts the cage `mesh`, which came from `cage`; returns the seconds that took.
+    pub(crate) fn convert(
+        &self,
+        cage: &Cage,
+        mesh: &ControlMesh,
+        format: PartFormat,
+    ) -> Result<(Part, f64), Failure> {
+        let start = Instant::now();
+        let part = to_part(mesh, &self.options(format)).map_err(|error| refusal(cage, &error))?;
+        Ok((part, start.elapsed().as_secs_f64()))
+    }
+
+    fn options(&self, format: PartFormat) -> Options {
+        let pack = self.pack || (format == PartFormat::Step && !self.no_pack);
+        Options {
+            method: self.method,
+            level: self.level,
+            max_deviation: self.max_deviation,
+            packing: if pack { Packing::Packed } else { Packing::Unpacked },
+            up: self.up_axis.unwrap_or_default(),
+            memory: system::available_memory(),
+        }
+    }
+
+    /// Writes a part; its name is that of the destination, or `stem` where that has none.
+    pub(crate) fn write(
+        &self,
+        part: &Part,
+        format: PartFormat,
+        destination: &Destination,
+        stem: &str,
+        timestamp: String,
+        out: &mut Counter,
+    ) -> io::Result<()> {
+        match format {
+            PartFormat::BezierView => bv::write(part, out),
+            PartFormat::Json => patches::write(part, out),
+            PartFormat::Step => step::write(part, &self.step_options(destination, stem, timestamp), out),
+        }
+    }
+
+    /// What a STEP file says about itself.
+    pub(crate) fn step_options(
+        &self,
+        destination: &Destination,
+        stem: &str,
+        timestamp: String,
+    ) -> step::Options {
+        let stem = destination.stem().unwrap_or_else(|| stem.to_owned());
+        let file_name = match destination {
+            Destination::Stdout => format!("{stem}.step"),
+            Destination::File(path) => {
+                path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
+            }
+        };
+        step::Options {
+            unit: self.unit,
+            schema: self.ap,
+            name: self.name.clone().unwrap_or(stem),
+            file_name,
+            timestamp,
+            originating_system: concat!("ogee ", env!("CARGO_PKG_VERSION")).to_owned(),
+        }
+    }
+
+    /// What is worth saying about a part that came from the file `name`.
+    pub(crate) fn notes(&self, part: &Part, name: &str) -> Vec<Finding> {
+        let mut notes: Vec<Finding> = part.report.notes.iter().map(Finding::of_note).collect();
+        let [low, high] = part.report.bounding_box;
+        let across = low.distance(high) * self.unit.in_millimetres();
+        if across < SMALLEST_PART {
+            let message = format!(
+                "the part is {across:.1e} mm across, and CAD kernels join points 1e-6 mm apart: is the unit right?"
+            );
+            notes.push(Finding::in_file("tiny", message, name));
+        }
+        notes
+    }
+
+    /// The figures of a part.
+    pub(crate) fn report(&self, part: &Part) -> PartReport {
+        let figures = &part.report;
+        PartReport {
+            method: figures.method.name(),
+            level: figures.level,
+            cage_faces: figures.cage_faces,
+            patches: figures.patches,
+            faces_written: figures.faces_written,
+            edges: figures.edges,
+            vertices: figures.vertices,
+            solids: figures.solids,
+            shells: figures.shells,
+            closed: figures.closed,
+            unit: self.unit.name(),
+            volume: figures.volume,
+            area: figures.area,
+            bbox: figures.bounding_box.map(<[f64; 3]>::from),
+            max_normal_angle_deg: figures.max_normal_angle_deg,
+            max_gap: figures.max_gap,
+            max_deviation: figures.max_deviation,
+            max_deviation_relative: figures.max_deviation_relative,
+            max_curvature_jump: figures.max_curvature_jump,
+            smooth_edges: figures.smooth_edges,
+            sharp_edges: figures.sharp_edges,
+        }
+    }
+}
+
+/// What a refused conversion means: a bad cage, a wrong level, or a wish that was not fulfilled.
+fn refusal(cage: &Cage, error: &ConvertError) -> Failure {
+    let mut failure = match error {
+        ConvertError::Topology(error) => return cage.refused(&error.defects),
+        _ => cage.failure(error.code(), error.to_string()),
+    };
+    failure.exit = match error {
+        ConvertError::Deviation { .. } => Exit::Check,
+        ConvertError::LevelTooHigh { .. } | ConvertError::Pccm(PccmError::LevelTooLow { .. }) => Exit::Usage,
+        _ => Exit::Input,
+    };
+    failure
+}
+
+impl PartReport {
+    /// Adds the figures to a table, more of them if `verbose`.
+    pub(crate) fn rows(&self, table: &mut Table, verbose: bool) {
+        let (report, unit) = (self, self.unit);
+        table.row("cage", count(report.cage_faces, "face", "faces"));
+        table.row("method", format!("{} at level {}", report.method, report.level));
+        let written = count(report.faces_written, "face", "faces");
+        table.row("patches", format!("{}, written as {written}", report.patches));
+        let shells = count(report.shells, "shell", "shells");
+        let closed = if report.closed { "closed" } else { "open" };
+        table.row("part", format!("{} of {shells}, {closed}", count(report.solids, "solid", "solids")));
+        table.row("unit", unit);
+        if let Some(volume) = report.volume {
+            table.row("volume", format!("{} {unit}^3", figure(volume)));
+        }
+        table.row("area", format!("{} {unit}^2", figure(report.area)));
+        let [low, high] = report.bbox.map(Vec3::from);
+        let size = <[f64; 3]>::from(high - low).map(figure).join(" x ");
+        table.row("size", format!("{size} {unit}"));
+        table.row("largest angle", format!("{} deg over smooth edges", figure(report.max_normal_angle_deg)));
+        table.row("largest gap", format!("{} {unit}", figure(report.max_gap)));
+        let relative = figure(report.max_deviation_relative);
+        table.row("deviation", format!("{} {unit}, {relative} of the size", figure(report.max_deviation)));
+        if verbose {
+            let [low, high] = report.bbox.map(|corner| corner.map(figure).join(" "));
+            table.row("bounding box", format!("({low}) to ({high})"));
+            table.row("edges", format!("{} smooth, {} sharp", report.smooth_edges, report.sharp_edges));
+            table.row("vertices", report.vertices.to_string());
+            table.row("curvature jump", figure(report.max_curvature_jump));
+        }
+    }
+}
