@@ -35,8 +35,12 @@ pub(super) fn changed_cells(base: &Level, level: u32, classes: &[[CornerClass; 4
     for (quad, corners) in
         classes.iter().enumerate().filter(|&(quad, _)| base.is_visible(FaceId(quad as u32)))
     {
-        for (k, _) in corners.iter().enumerate().filter(|&(_, &class)| class != CornerClass::Regular) {
-            for (a, b) in [(0, 0), (1, 0), (2, 0), (0, 1), (0, 2)] {
+        for (k, class) in corners.iter().enumerate().filter(|&(_, &class)| class != CornerClass::Regular) {
+            let changed: &[(usize, usize)] = match class {
+                CornerClass::Meeting => &[(0, 0), (1, 0), (0, 1), (1, 1)],
+                _ => &[(0, 0), (1, 0), (2, 0), (0, 1), (0, 2)],
+            };
+            for &(a, b) in changed {
                 if a < m && b < m {
                     let (i, j) = view(k, a, b, m - 1);
                     cells.push((quad as u32, i, j));

@@ -132,7 +132,7 @@ impl ConvertError {
 /// If the cage has defects, a vertex that the method has no rule for, or asks for more than a level can give.
 pub fn to_part(mesh: &ControlMesh, options: &Options) -> Result<Part, ConvertError> {
     let source = Source::new(mesh, options.up)?;
-    if let Some(&Meeting { vertex, .. }) = mesh.meetings.first() {
+    if let (Method::Bi5, Some(&Meeting { vertex, .. })) = (options.method, mesh.meetings.first()) {
         return Err(ConvertError::Meeting { vertex });
     }
     if source.quads.hidden_faces().len() == source.quads.topology().face_count() {
@@ -273,12 +273,19 @@ impl<'a> Converted<'a> {
             v: patches.knots.clone(),
             net: net.clone(),
         };
+        let mut surfaces: Vec<NurbsSurface> = patches.nets.iter().map(surface).collect();
+        if !patches.caps.is_empty() {
+            let pieces = Pieces::new(&source.quads, &source.points, &patches, layer);
+            for cap in &patches.caps {
+                surfaces[cap.quad as usize] = pieces.in_cells(cap.quad);
+            }
+        }
         Ok(Converted {
             level,
             base: Cow::Borrowed(&source.quads),
             points: Cow::Borrowed(&source.points),
             source_quads: (0..patches.nets.len() as u32).collect(),
-            surfaces: patches.nets.iter().map(surface).collect(),
+            surfaces,
             kind: Kind::Bicubic { patches, layer },
         })
     }
@@ -310,7 +317,7 @@ impl<'a> Converted<'a> {
     }
 
     /// Charts with their surfaces, in quads.
-    fn faces(&self, packing: Packing) -> Vec<Face> {
+    fn faces(&self, packing: Packing, seams: &[HalfedgeId]) -> Vec<Face> {
         let Kind::Bicubic { patches, layer } = &self.kind else {
             let faces = unpacked(&self.base).into_iter().map(|chart| {
                 let surface = self.surfaces[chart.quads[(0, 0)].quad as usize].clone();
@@ -319,7 +326,7 @@ impl<'a> Converted<'a> {
             return faces.collect();
         };
         let charts = match packing {
-            Packing::Packed => pack(&self.base, &patches.classes),
+            Packing::Packed => pack(&self.base, &patches.classes, seams),
             Packing::Unpacked => unpacked(&self.base),
         };
         let pieces = Pieces::new(&self.base, &self.points, patches, *layer);
@@ -367,7 +374,8 @@ fn finish(
     let mut all_notes = notes(mesh);
     all_notes.extend_from_slice(patches.notes());
     let address = |quad: u32| patches.address(source, quad);
-    let shells = sew::sew(&patches.base, patches.faces(options.packing), patches.broken(), address);
+    let seams = Vec::new();
+    let shells = sew::sew(&patches.base, patches.faces(options.packing, &seams), patches.broken(), address);
     let mut bodies = bodies::bodies(shells, &mut all_notes);
 
     for body in &mut bodies {

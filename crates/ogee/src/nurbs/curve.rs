@@ -85,6 +85,16 @@ pub(crate) fn polar_of(knots: &[f64], work: &mut [Vec3], arguments: &[f64]) -> V
     work[degree]
 }
 
+/// Bezier coefficients of one degree more: `N` of them from `N - 1`.
+pub(crate) fn raised<const N: usize>(points: &[Vec3]) -> [Vec3; N] {
+    let degree = points.len();
+    std::array::from_fn(|k| {
+        let share = k as f64 / degree as f64;
+        let before = if k > 0 { share * points[k - 1] } else { Vec3::ZERO };
+        before + if k < degree { (1.0 - share) * points[k] } else { Vec3::ZERO }
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -11,6 +11,7 @@ use super::requirements::refuse_valence_two;
 use crate::math::circulant::{alternating_mean, first_mode, sign, solve_pair_sums};
 use crate::math::{Grid, Vec3};
 use crate::mesh::{HalfedgeId, VertexId};
+use crate::nurbs::curve::raised;
 use crate::rules::Level;
 use std::f64::consts::TAU;
 
@@ -33,8 +34,8 @@ pub fn to_quintic_patches(base: &Level, points: &[Vec3]) -> Result<Vec<Grid<Vec3
         (0..topology.face_count()).map(|quad| start_net(base, points, quad)).collect();
     let mut nets = start.clone();
     for h in (0..topology.halfedge_count() as u32).map(HalfedgeId) {
-        let quintic = raise(&along(base, &quartics, h));
-        for (k, value) in quintic.into_iter().enumerate() {
+        let row: [Vec3; 6] = raised(&along(base, &quartics, h));
+        for (k, value) in row.into_iter().enumerate() {
             set(&mut nets, h, k, 0, value);
         }
     }
@@ -156,16 +157,6 @@ fn balance(base: &Level, quartics: &mut [[Vec3; 5]]) {
     }
 }
 
-/// A quartic raised to degree five.
-fn raise(b: &[Vec3; 5]) -> [Vec3; 6] {
-    std::array::from_fn(|k| {
-        let share = k as f64 / 5.0;
-        let before = if k > 0 { share * b[k - 1] } else { Vec3::ZERO };
-        let after = if k < 5 { (1.0 - share) * b[k] } else { Vec3::ZERO };
-        before + after
-    })
-}
-
 /// Bernstein coefficients of `D = 2 omega gamma'`, the sum of both cross derivatives along the halfedge's edge.
 fn cross_sum(base: &Level, quartics: &[[Vec3; 5]], h: HalfedgeId) -> [Vec3; 6] {
     let topology = base.topology();
@@ -256,16 +247,8 @@ fn start_net(base: &Level, points: &[Vec3], quad: usize) -> Grid<Vec3> {
         net[view(k, 1, 0, 3)] = spoke([edge(0), edge(1), edge(2)], [diagonal(0), diagonal(1)]);
         net[view(k, 0, 1, 3)] = spoke([edge(1), edge(2), edge(3)], [diagonal(1), diagonal(2)]);
     }
-    let raised = |column: [Vec3; 4]| {
-        // Cubic to quartic to quintic.
-        let quartic: [Vec3; 5] = std::array::from_fn(|k| {
-            let share = k as f64 / 4.0;
-            let before = if k > 0 { share * column[k - 1] } else { Vec3::ZERO };
-            before + if k < 4 { (1.0 - share) * column[k] } else { Vec3::ZERO }
-        });
-        raise(&quartic)
-    };
-    let columns: Vec<[Vec3; 6]> = (0..4).map(|i| raised(std::array::from_fn(|j| net[(i, j)]))).collect();
-    let rows: Vec<[Vec3; 6]> = (0..6).map(|j| raised(std::array::from_fn(|i| columns[i][j]))).collect();
+    let quintic = |column: [Vec3; 4]| -> [Vec3; 6] { raised(&raised::<5>(&column)) };
+    let columns: Vec<[Vec3; 6]> = (0..4).map(|i| quintic(std::array::from_fn(|j| net[(i, j)]))).collect();
+    let rows: Vec<[Vec3; 6]> = (0..6).map(|j| quintic(std::array::from_fn(|i| columns[i][j]))).collect();
     Grid::from_fn(6, 6, |i, j| rows[j][i])
 }

@@ -5,12 +5,13 @@
 //! corners from the patches themselves. `docs/methods/packing.md`, Changes from the paper.
 
 use super::packing::{Chart, Placed};
-use super::{Cells, CornerClass, Layer, Patches, view};
+use super::{CAP_CELLS, Cap, Cells, CornerClass, Layer, Patches, view};
 use crate::math::{Grid, Vec3, par};
 use crate::mesh::{FaceId, HalfedgeId};
-use crate::nurbs::curve::polar_of;
+use crate::nurbs::curve::{polar_of, raised};
 use crate::nurbs::{KnotVector, NurbsSurface};
 use crate::rules::Level;
+use std::collections::BTreeMap;
 
 /// Cells along an edge, counted from an irregular corner, that smoothing changes.
 const CHANGED_CELLS: usize = 3;
@@ -21,8 +22,10 @@ pub(crate) struct Pieces<'a> {
     layer: Layer,
     /// `nets[j][quad]`: the layered net of the quad on mesh level `j`, up to the level of the patches.
     nets: Vec<Vec<Grid<Vec3>>>,
+    /// Caps by quad and corner.
+    caps: BTreeMap<(u32, u32), &'a Cap>,
     /// For each quad the level from which on it is made of bicubic cells away from irregular corners: 0, or more where
-    /// a semi-sharp crease touches it.
+    /// a semi-sharp crease touches it, or a quad at a meeting of curves.
     settled: Vec<u32>,
 }
 
@@ -37,17 +40,15 @@ impl<'a> Pieces<'a> {
             let cells = Cells::new(base, &level, depth);
             nets.push(par::map(patches.nets.len(), |quad| cells.layered_net(quad as u32, &data)));
         }
-        Pieces { patches, layer, nets, settled: settled_levels(base) }
+        let caps = patches.caps.iter().map(|cap| ((cap.quad, cap.corner), cap)).collect();
+        Pieces { patches, layer, nets, caps, settled: settled_levels(base) }
     }
 
     /// The surface of a chart, one unit of knot per quad.
     pub(crate) fn surface(&self, chart: &Chart) -> NurbsSurface {
         let m = 1usize << self.patches.level;
         let (width, height) = (chart.quads.rows(), chart.quads.cols());
-        let corner = |i: usize, j: usize, k: usize| {
-            let placed = chart.quads[(i, j)];
-            self.patches.classes[placed.quad as usize][(placed.turn as usize + k) % 4] != CornerClass::Regular
-        };
+        let corner = |i: usize, j: usize, k: usize| self.class(chart.quads[(i, j)], k);
         let (a, b, c, d) = (
             corner(0, 0, 0),
             corner(width - 1, 0, 1),
@@ -60,22 +61,42 @@ impl<'a> Pieces<'a> {
         let rows: Vec<u32> = (0..height)
             .map(|j| (0..width).map(|i| settled(&chart.quads[(i, j)])).max().unwrap_or(0))
             .collect();
-        let u = self.chart_knots([a || d, b || c], &columns);
-        let v = self.chart_knots([a || b, c || d], &rows);
-        let (u_places, v_places) = (places(&u), places(&v));
-        let net = Grid::from_fn(u.coefficients(), v.coefficients(), |i, j| {
-            self.coefficient(chart, &u_places[i], &v_places[j])
-        });
+        // Next to a meeting of curves a chart is of degree five throughout: every knot stands twice more.
+        let degree = if [a, b, c, d].contains(&CornerClass::Meeting) { 5 } else { 3 };
+        let u = self.chart_knots(degree, [[a, d], [b, c]], &columns);
+        let v = self.chart_knots(degree, [[a, b], [c, d]], &rows);
+        let net = if degree == 3 {
+            let (u_places, v_places) = (places::<3>(&u), places::<3>(&v));
+            Grid::from_fn(u_places.len(), v_places.len(), |i, j| {
+                self.coefficient(chart, &u_places[i], &v_places[j])
+            })
+        } else {
+            let (u_places, v_places) = (places::<5>(&u), places::<5>(&v));
+            Grid::from_fn(u_places.len(), v_places.len(), |i, j| {
+                self.quintic_coefficient(chart, &u_places[i], &v_places[j])
+            })
+        };
         // From cells to quads: dividing by a power of two is exact.
         let in_quads = |knots: &KnotVector| {
-            KnotVector::new(3, knots.knots().iter().map(|knot| knot / m as f64).collect())
+            KnotVector::new(degree, knots.knots().iter().map(|knot| knot / m as f64).collect())
         };
         NurbsSurface { u: in_quads(&u), v: in_quads(&v), net }
     }
 
+    /// The surface of one quad, over `[0, 2^level]` in both directions.
+    pub(crate) fn in_cells(&self, quad: u32) -> NurbsSurface {
+        let chart = Chart { quads: Grid::from_fn(1, 1, |_, _| Placed { quad, turn: 0 }) };
+        let surface = self.surface(&chart);
+        let m = (1usize << self.patches.level) as f64;
+        let in_cells = |knots: &KnotVector| {
+            KnotVector::new(knots.degree(), knots.knots().iter().map(|knot| knot * m).collect())
+        };
+        NurbsSurface { u: in_cells(&surface.u), v: in_cells(&surface.v), net: surface.net }
+    }
+
     /// Knots of one direction in cells: quad lines, the knots that smoothing put next to irregular ends, dyadic ones
     /// further out, and those that semi-sharp creases leave.
-    fn chart_knots(&self, irregular: [bool; 2], settled: &[u32]) -> KnotVector {
+    fn chart_knots(&self, degree: usize, ends: [[CornerClass; 2]; 2], settled: &[u32]) -> KnotVector {
         let level = self.patches.level;
         let m = 1usize << level;
         let length = settled.len() * m;
@@ -89,33 +110,76 @@ impl<'a> Pieces<'a> {
             let spacing = m >> settled.min(level);
             (0..m).step_by(spacing).for_each(|cell| raise(quad * m + cell, 1));
         }
-        for (end, irregular) in irregular.into_iter().enumerate() {
-            if !irregular {
-                continue;
-            }
+        for (end, corners) in ends.into_iter().enumerate() {
             let from_end = |cells: usize| if end == 0 { cells } else { length.saturating_sub(cells) };
-            let doubled = if self.layer == Layer::Second { 2 } else { 1 };
-            for cells in 1..=CHANGED_CELLS {
-                raise(from_end(cells), if cells <= doubled { 2 } else { 1 });
+            if corners.iter().any(|class| !matches!(class, CornerClass::Regular | CornerClass::Meeting)) {
+                let doubled = if self.layer == Layer::Second { 2 } else { 1 };
+                for cells in 1..=CHANGED_CELLS {
+                    raise(from_end(cells), if cells <= doubled { 2 } else { 1 });
+                }
+                for power in 2..level {
+                    raise(from_end(1 << power), 1);
+                }
             }
-            for power in 2..level {
-                raise(from_end(1 << power), 1);
+            if corners.contains(&CornerClass::Meeting) {
+                // On every mesh level the cells beyond the first two are bicubic.
+                raise(from_end(1), 2);
+                for power in 1..level {
+                    raise(from_end(1 << power), 1);
+                    raise(from_end(3 << (power - 1)), 1);
+                }
             }
         }
         times[0] = 4;
         times[length] = 4;
+        let raised = |times: usize| if times == 0 { 0 } else { times + degree - 3 };
         KnotVector::from_multiplicities(
-            3,
-            times.iter().enumerate().map(|(knot, &times)| (knot as f64, times)),
+            degree,
+            times.iter().enumerate().map(|(knot, &times)| (knot as f64, raised(times))),
         )
     }
 
-    fn coefficient(&self, chart: &Chart, u: &Place, v: &Place) -> Vec3 {
+    /// What the corner `k` of a quad is, in the frame of its chart.
+    fn class(&self, placed: Placed, k: usize) -> CornerClass {
+        self.patches.classes[placed.quad as usize][(placed.turn as usize + k) % 4]
+    }
+
+    /// A coefficient of a chart of degree five: of a cap, or of a bicubic piece raised.
+    fn quintic_coefficient(&self, chart: &Chart, u: &Place<5>, v: &Place<5>) -> Vec3 {
+        let m = 1usize << self.patches.level;
+        let placed = chart.quads[(u.cell / m, v.cell / m)];
+        let cell = (u.cell % m, v.cell % m);
+        for k in (0..4).filter(|&k| self.class(placed, k) == CornerClass::Meeting) {
+            let own = view((4 - k) % 4, cell.0, cell.1, m - 1);
+            let Some(cap) = self.caps.get(&(placed.quad, (placed.turn + k as u32) % 4)) else { continue };
+            if own.0 < CAP_CELLS && own.1 < CAP_CELLS {
+                let local = |place: &Place<5>| place.arguments.map(|knot| knot - (place.cell / m * m) as f64);
+                let back = |arguments: [f64; 5]| arguments.map(|knot| m as f64 - knot);
+                let (x, y) = (local(u), local(v));
+                let (a, b) = match k {
+                    0 => (x, y),
+                    1 => (y, back(x)),
+                    2 => (back(x), back(y)),
+                    _ => (back(y), x),
+                };
+                return cap.polar(own, &a, &b);
+            }
+        }
+        let of = |place: &Place<5>, k: usize| {
+            let [low, high] = place.span;
+            Place::<3> { arguments: std::array::from_fn(|i| if i < k { high } else { low }), span: place.span, cell: place.cell }
+        };
+        let bezier = Grid::from_fn(4, 4, |i, j| self.coefficient(chart, &of(u, i), &of(v, j)));
+        let half: [Vec3; 4] = std::array::from_fn(|i| quintic_polar(bezier.row(i), v));
+        quintic_polar(&half, u)
+    }
+
+    fn coefficient(&self, chart: &Chart, u: &Place<3>, v: &Place<3>) -> Vec3 {
         let m = 1usize << self.patches.level;
         let placed = chart.quads[(u.cell / m, v.cell / m)];
         let (origin_u, origin_v) = (u.cell / m * m, v.cell / m * m);
         let (cell_u, cell_v) = (u.cell - origin_u, v.cell - origin_v);
-        let local = |place: &Place, origin: usize| place.arguments.map(|knot| knot - origin as f64);
+        let local = |place: &Place<3>, origin: usize| place.arguments.map(|knot| knot - origin as f64);
         let (args_u, args_v) = (local(u, origin_u), local(v, origin_v));
         for level in self.settled[placed.quad as usize]..=self.patches.level {
             let size = m >> level;
@@ -133,14 +197,13 @@ impl<'a> Pieces<'a> {
     fn is_untouched(&self, placed: Placed, level: u32, a: usize, b: usize) -> bool {
         let (last, size) = ((1usize << level) - 1, (1usize << self.patches.level) >> level);
         (0..4).all(|k| {
-            if self.patches.classes[placed.quad as usize][(placed.turn as usize + k) % 4]
-                == CornerClass::Regular
-            {
-                return true;
-            }
             // The cell as corner k of the chart's own frame sees it.
             let (x, y) = view((4 - k) % 4, a, b, last);
-            !(y == 0 && x * size < CHANGED_CELLS || x == 0 && y * size < CHANGED_CELLS)
+            match self.class(placed, k) {
+                CornerClass::Regular => true,
+                CornerClass::Meeting => x.max(y) >= CAP_CELLS,
+                _ => !(y == 0 && x * size < CHANGED_CELLS || x == 0 && y * size < CHANGED_CELLS),
+            }
         })
     }
 
@@ -177,28 +240,39 @@ fn tensor_polar(knots: [&[f64; 6]; 2], arguments: [[f64; 3]; 2], at: impl Fn(usi
     polar_of(knots[0], &mut column, &arguments[0])
 }
 
-/// Where a coefficient is read: its inner knots, and a cell of its support next to the Greville abscissa.
-struct Place {
-    arguments: [f64; 3],
+/// The polar form of a cubic Bezier piece over a span, raised to degree five.
+fn quintic_polar(cubic: &[Vec3], place: &Place<5>) -> Vec3 {
+    let quartic: [Vec3; 5] = raised(cubic);
+    let mut work: [Vec3; 6] = raised(&quartic);
+    let [low, high] = place.span;
+    let knots: [f64; 10] = std::array::from_fn(|k| if k < 5 { low } else { high });
+    polar_of(&knots, &mut work, &place.arguments)
+}
+
+/// Where a coefficient is read: its inner knots, a span of its support next to the Greville abscissa, and a cell of it.
+struct Place<const DEGREE: usize> {
+    arguments: [f64; DEGREE],
+    span: [f64; 2],
     cell: usize,
 }
 
-fn places(knots: &KnotVector) -> Vec<Place> {
+fn places<const DEGREE: usize>(knots: &KnotVector) -> Vec<Place<DEGREE>> {
     let values = knots.knots();
     (0..knots.coefficients())
         .map(|i| {
-            let arguments = [values[i + 1], values[i + 2], values[i + 3]];
-            let greville = arguments.iter().sum::<f64>() / 3.0;
+            let arguments: [f64; DEGREE] = std::array::from_fn(|k| values[i + 1 + k]);
+            let greville = arguments.iter().sum::<f64>() / DEGREE as f64;
             let distance = |&s: &usize| (values[s] - greville).max(greville - values[s + 1]).max(0.0);
-            let spans = (i..=i + 3).filter(|&s| values[s] < values[s + 1]);
+            let spans = (i..=i + DEGREE).filter(|&s| values[s] < values[s + 1]);
             let s = spans.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(i);
             let cell = (greville.floor() as usize).clamp(values[s] as usize, values[s + 1] as usize - 1);
-            Place { arguments, cell }
+            Place { arguments, span: [values[s], values[s + 1]], cell }
         })
         .collect()
 }
 
-/// For each quad the number of steps after which no finite sharpness is left at its corners.
+/// For each quad the number of steps after which no finite sharpness is left at its corners, and it touches no quad at a
+/// meeting of curves.
 fn settled_levels(base: &Level) -> Vec<u32> {
     let topology = base.topology();
     let mut settled = vec![0; topology.face_count()];
@@ -215,6 +289,9 @@ fn settled_levels(base: &Level) -> Vec<u32> {
     }
     for (v, sharpness) in base.semi_sharp_vertices() {
         touch(v, sharpness);
+    }
+    for (slice, _) in base.slices() {
+        topology.halfedges(slice).for_each(|h| touch(topology.origin(h), 1.0));
     }
     settled
 }

@@ -39,7 +39,7 @@ impl Ring {
 pub(crate) fn place(fan: &mut Fan, nets: &[Grid<Vec3>], inserted: &Arrays, options: &Options) {
     let ring = Ring::new(fan, nets);
     match fan.class {
-        CornerClass::Regular => {}
+        CornerClass::Regular | CornerClass::Meeting => {}
         CornerClass::Interior | CornerClass::Dart => place_smooth(fan, &ring, inserted, options),
         CornerClass::Crease => place_on_crease(fan, &ring, inserted),
         CornerClass::Corner => place_at_corner(fan, &ring),

@@ -20,6 +20,8 @@ pub enum CornerClass {
     Dart,
     /// A vertex tagged sharp inside a smooth region: left as inserted, without a tangent plane.
     Cone,
+    /// Curves meet: there are caps.
+    Meeting,
 }
 
 /// The patches of one sector around a vertex; all but regular ones.

@@ -7,20 +7,25 @@
 //! place limit points and tangents at irregular corners (`corner`), then edge curves, second rows and twists (`edge`).
 
 mod bi5;
+mod cap;
 mod chart_surface;
+mod closing;
 mod constants;
 mod corner;
 mod edge;
 mod fan;
+mod meeting;
 mod net;
 mod packing;
 mod requirements;
 
 pub use bi5::to_quintic_patches;
 pub use fan::CornerClass;
+pub use meeting::Cap;
 pub use requirements::{PccmError, Requirement, SHARPEST, least_level};
 
 pub(crate) use chart_surface::Pieces;
+pub(crate) use meeting::{CAP_CELLS, meetings};
 pub(crate) use net::{Cells, view};
 pub(crate) use packing::{Chart, Placed, pack, unpacked};
 
@@ -83,6 +88,8 @@ pub struct Patches {
     pub nets: Vec<Grid<Vec3>>,
     /// What each corner of each quad is.
     pub classes: Vec<[CornerClass; 4]>,
+    /// What the surface is in the first two cells around meetings of curves, in place of the nets there.
+    pub caps: Vec<Cap>,
     /// Base halfedges whose edge is no longer tangent-continuous next to the vertex they leave: at cones, and at
     /// corners too flat to be smoothed.
     pub broken: Vec<HalfedgeId>,
@@ -93,7 +100,7 @@ pub struct Patches {
 /// Valences above this give large flat zones.
 const LARGE_VALENCE: usize = 20;
 
-/// Converts every quad of a level into a bicubic patch.
+/// Converts every quad of a level into a bicubic patch; around meetings of curves [`Patches::caps`] take their place.
 ///
 /// `base` must have quads only; `points` are its vertices, best near the origin (recentre first: rounding grows with
 /// the distance). Costs about `100` coefficients a quad at level 2.
@@ -144,8 +151,13 @@ fn smooth(base: &Level, fine: &Level, fine_points: &[Vec3], options: &Options) -
         Layer::Second => smooth_second_layer(base, &mut fans, options, &inserted, &mut arrays),
     }
     weld(base, &mut arrays);
-    let (broken, notes) = findings(base, &fans);
-    Patches { level: options.level, knots, nets: arrays.patches, classes, broken, notes }
+    let (caps, kinks) = meeting::caps(base, fine, fine_points, options.level);
+    let (mut broken, mut notes) = findings(base, &fans);
+    for kink in kinks {
+        broken.extend(base.topology().ring(kink.vertex));
+        notes.push(kink.note());
+    }
+    Patches { level: options.level, knots, nets: arrays.patches, classes, caps, broken, notes }
 }
 
 /// All fans that are not regular, and the class of every corner of every quad.
@@ -153,16 +165,20 @@ fn fans(base: &Level) -> (Vec<Fan>, Vec<[CornerClass; 4]>) {
     let topology = base.topology();
     let mut fans = Vec::new();
     let mut classes = vec![[CornerClass::Regular; 4]; topology.face_count()];
+    for h in meetings(base).into_iter().flat_map(|meeting| meeting.halfedges) {
+        classes[h.index() / 4][h.index() % 4] = CornerClass::Meeting;
+    }
     for v in (0..topology.vertex_count() as u32).map(VertexId) {
         let sectors = base.sectors(v);
         let closing = usize::from(topology.is_boundary(v));
         let sharp_edges = topology.ring(v).filter(|&h| base.is_sharp(h)).count() + closing;
         for sector in sectors {
             let class = Fan::classify(base, v, sector, sharp_edges);
-            if class == CornerClass::Regular {
+            let halfedges: Vec<HalfedgeId> = base.sector_halfedges(sector).collect();
+            let is_meeting = |h: &HalfedgeId| classes[h.index() / 4][h.index() % 4] == CornerClass::Meeting;
+            if class == CornerClass::Regular || halfedges.first().is_some_and(is_meeting) {
                 continue;
             }
-            let halfedges: Vec<HalfedgeId> = base.sector_halfedges(sector).collect();
             for h in &halfedges {
                 classes[h.index() / 4][h.index() % 4] = class;
             }

@@ -6,7 +6,7 @@
 //! After Eppstein, Goodrich, Kim and Tamstorf, Motorcycle graphs: canonical quad mesh partitioning (2008);
 //! `docs/methods/packing.md`.
 
-use super::CornerClass;
+use super::{CornerClass, meetings};
 use crate::math::Grid;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::rules::Level;
@@ -39,8 +39,12 @@ pub(crate) fn unpacked(base: &Level) -> Vec<Chart> {
 }
 
 /// Few rectangles that cover all visible quads; every irregular vertex is a corner of all its charts.
-pub(crate) fn pack(base: &Level, classes: &[[CornerClass; 4]]) -> Vec<Chart> {
+///
+/// No chart crosses a curve that leaves a meeting straight on through regular vertices, nor an edge of `seams`.
+pub(crate) fn pack(base: &Level, classes: &[[CornerClass; 4]], seams: &[HalfedgeId]) -> Vec<Chart> {
     let mut traces = Traces::new(base);
+    traces.follow_curves(classes);
+    seams.iter().for_each(|&h| traces.separate(h));
     traces.fire_from_irregular(classes);
     // Faces whose regions are still to be looked at, the first ones last.
     let faces = base.topology().face_count() as u32;
@@ -93,6 +97,31 @@ impl<'a> Traces<'a> {
             }
         }
         traces
+    }
+
+    fn separate(&mut self, h: HalfedgeId) {
+        let topology = self.base.topology();
+        self.separator[topology.edge(h).index()] = true;
+        self.visited[topology.origin(h).index()] = true;
+        self.visited[topology.target(h).index()] = true;
+    }
+
+    /// Separates along the ports of every meeting, straight on to the next irregular vertex, boundary or crease.
+    fn follow_curves(&mut self, classes: &[[CornerClass; 4]]) {
+        let topology = self.base.topology();
+        let regular = |h: HalfedgeId| classes[h.index() / 4][h.index() % 4] == CornerClass::Regular;
+        let ports = meetings(self.base).into_iter().flat_map(|fan| fan.halfedges.into_iter().step_by(2));
+        for mut h in ports {
+            // Once round at most: a curve may come back to where it began.
+            for _ in 0..topology.edge_count() {
+                self.separate(h);
+                let end = topology.target(h);
+                let goes_on = topology.ring(end).all(|h| regular(h) && !self.base.is_sharp(h));
+                let across = topology.twin(topology.next(h)).filter(|_| goes_on && !topology.is_boundary(end));
+                let Some(across) = across else { break };
+                h = topology.next(across);
+            }
+        }
     }
 
     fn fire_from_irregular(&mut self, classes: &[[CornerClass; 4]]) {

@@ -1,6 +1,6 @@
 //! What a cage asks of the conversion: the least level, and what has no rule.
 
-use super::Layer;
+use super::{CornerClass, Fan, Layer, meetings};
 use crate::mesh::{FaceId, HalfedgeId, Valence, VertexId};
 use crate::rules::Level;
 
@@ -86,7 +86,7 @@ pub struct Requirement {
 
 /// The least number of refinements that is right for a level of quads.
 ///
-/// SECOND wants 2; FIRST wants 2, or 1 where no edge has two irregular ends and no vertex has even valence of 6 or
+/// Meetings of curves want 2, or 3 where one of their edges ends in an irregular vertex. Else SECOND wants 2; FIRST wants 2, or 1 where no edge has two irregular ends and no vertex has even valence of 6 or
 /// more. Semi-sharp creases want as many steps as they take to fade; with Chaikin creases this is an upper bound.
 ///
 /// # Errors
@@ -98,6 +98,13 @@ pub fn least_level(base: &Level, layer: Layer) -> Result<Requirement, PccmError>
         least.because = "the second layer needs four cells a side";
     } else if !joins_irregular(base) {
         least = Requirement { level: 1, because: "one refinement is the least" };
+    }
+    if let Some(level) = meeting_level(base).filter(|&level| level > least.level) {
+        let because = match level {
+            2 => "curves meet, which takes two cells a side and two more beyond",
+            _ => "an edge joins a meeting of curves with an irregular vertex",
+        };
+        least = Requirement { level, because };
     }
     let edges = base.semi_sharp_edges().map(|(_, s)| s);
     let sharpest = edges.chain(base.semi_sharp_vertices().map(|(_, s)| s)).fold(0.0, f64::max);
@@ -139,20 +146,29 @@ pub(super) fn refuse_valence_two(base: &Level) -> Result<(), PccmError> {
     Ok(())
 }
 
+/// What meetings of curves want: the cap of a meeting takes two cells, what smoothing changes at the other end of an edge
+/// three.
+fn meeting_level(base: &Level) -> Option<u32> {
+    let topology = base.topology();
+    let spokes: Vec<HalfedgeId> = meetings(base).into_iter().flat_map(|fan| fan.halfedges).collect();
+    let crowded = spokes.iter().any(|&h| is_irregular(base, topology.target(h)));
+    (!spokes.is_empty()).then_some(if crowded { 3 } else { 2 })
+}
+
+/// True if smoothing may change something at a vertex.
+fn is_irregular(base: &Level, v: VertexId) -> bool {
+    let topology = base.topology();
+    let closing = usize::from(topology.is_boundary(v));
+    let sharp_edges = topology.ring(v).filter(|&h| base.is_sharp(h)).count() + closing;
+    let class = |sector| Fan::classify(base, v, sector, sharp_edges);
+    base.sectors(v).into_iter().any(|sector| class(sector) != CornerClass::Regular)
+}
+
 /// True if an edge has two irregular ends or a vertex even valence of 6 or more.
 fn joins_irregular(base: &Level) -> bool {
-    use super::{CornerClass, Fan};
     let topology = base.topology();
-    let irregular: Vec<bool> = (0..topology.vertex_count() as u32)
-        .map(VertexId)
-        .map(|v| {
-            let closing = usize::from(topology.is_boundary(v));
-            let sharp_edges = topology.ring(v).filter(|&h| base.is_sharp(h)).count() + closing;
-            base.sectors(v)
-                .into_iter()
-                .any(|sector| Fan::classify(base, v, sector, sharp_edges) != CornerClass::Regular)
-        })
-        .collect();
+    let vertices = (0..topology.vertex_count() as u32).map(VertexId);
+    let irregular: Vec<bool> = vertices.map(|v| is_irregular(base, v)).collect();
     let both = |h: HalfedgeId| irregular[topology.origin(h).index()] && irregular[topology.target(h).index()];
     let even = |v: VertexId| matches!(topology.valence(v), Valence::Interior(n) if n >= 6 && n % 2 == 0);
     (0..topology.halfedge_count() as u32).map(HalfedgeId).any(both)
