@@ -34,7 +34,9 @@ pub use complex::{Complex, control_point, reposition, rim_start, smooth_crossing
 pub use defect::{NetworkDefect, NetworkError};
 pub use embed::{Embedding, XConfiguration, embed};
 pub use fold::least_turn;
-pub use network::{Crossing, CurveNetwork, MeetingOptions, NetworkCurve, NetworkOptions, Placing, PreSplit};
+pub use network::{
+    Crossing, CurveNetwork, MeetingOptions, NetworkCurve, NetworkOptions, Placing, PointConstraint, PreSplit,
+};
 pub use place::{Arrival, Placement, Site, place};
 pub use plan::{MeetingVertex, NetworkPlan, Segment, SegmentEnd, ring_normal};
 pub use repair::{MeetingPorts, Repaired, Ribbons, TaggedPath, repair};

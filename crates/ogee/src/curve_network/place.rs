@@ -73,6 +73,7 @@ pub fn place(site: &Site) -> Option<Placement> {
     let mut ring = match options.placing.unwrap_or_default() {
         Placing::Eigen | Placing::Keep => XRing::eigen(&tangents, parameter, plane.normal),
         Placing::Parallelogram => XRing::parallelogram(&tangents, 1.0, plane.normal),
+        Placing::Symmetric => XRing::symmetric(&tangents, parameter, plane.normal),
     };
     ring.crown(options.crown * plane.normal);
     let warnings = warnings(site, &plane, parameter, ports.len(), least_turn);

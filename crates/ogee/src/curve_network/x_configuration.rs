@@ -96,6 +96,27 @@ impl XRing {
         XRing::from_parts(tangents, &free, &after, &before)
     }
 
+    /// The symmetric configuration (Abbas and Nasri 2004): every slice is the mirror image, through the centre, of the one
+    /// opposite, as far as the tangents allow. It is the mean of the eigen configuration and its mirror image; with an odd
+    /// number of ports free spokes lie opposite ports, as long as these.
+    pub fn symmetric(tangents: &[Vec3], t: f64, normal: Vec3) -> XRing {
+        let mut ring = XRing::eigen(tangents, t, normal);
+        let half = tangents.len();
+        let before = ring.clone();
+        for i in 0..2 * half {
+            let opposite = (i + half) % (2 * half);
+            if i % 2 == 1 {
+                ring.ring[i] = if half % 2 == 1 {
+                    -before.ring[opposite]
+                } else {
+                    (before.ring[i] - before.ring[opposite]) / 2.0
+                };
+            }
+            ring.corners[i] = (before.corners[i] - before.corners[opposite]) / 2.0;
+        }
+        ring
+    }
+
     /// Lifts every free spoke by the same vector: an eigenvector of eigenvalue 1/4, so it bends the surface between the
     /// curves at the centre, where it is flat otherwise, and leaves the curves exact.
     pub fn crown(&mut self, lift: Vec3) {

@@ -24,6 +24,7 @@ pub fn curves(input: &Value) -> Vec<NetworkCurve> {
         vertices: list(&curve["vertices"]).iter().map(index).collect(),
         closed: curve["closed"].as_bool().unwrap(),
         control: (!curve["control"].is_null()).then(|| points(&curve["control"])),
+        ..NetworkCurve::default()
     };
     list(&input["curves"]).iter().map(curve).collect()
 }
