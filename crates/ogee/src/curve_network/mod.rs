@@ -26,6 +26,7 @@ mod sectors;
 mod tangent_plane;
 mod target_curve;
 mod tridiagonal;
+mod turn_legs;
 mod warning;
 mod x_configuration;
 mod x_matrix;
