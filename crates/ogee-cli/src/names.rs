@@ -80,7 +80,24 @@ pub(crate) const DERIVATIVES: Names<Derivatives> = Names {
 };
 
 pub(crate) const PLACINGS: Names<Placing> = Names {
-    values: &[("eigen", Placing::Eigen), ("parallelogram", Placing::Parallelogram), ("keep", Placing::Keep)],
+    values: &[
+        ("eigen", Placing::Eigen),
+        ("parallelogram", Placing::Parallelogram),
+        ("symmetric", Placing::Symmetric),
+        ("keep", Placing::Keep),
+    ],
+    elsewhere: &[],
+};
+
+/// The papers' own forms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Scheme {
+    AbbasNasri2004,
+    Generalised,
+}
+
+pub(crate) const SCHEMES: Names<Scheme> = Names {
+    values: &[("abbas-nasri-2004", Scheme::AbbasNasri2004), ("generalised", Scheme::Generalised)],
     elsewhere: &[],
 };
 

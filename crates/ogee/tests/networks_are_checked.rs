@@ -8,7 +8,7 @@ use ogee::{ControlMesh, Corner, Crease, FaceList, Sharpness, Vec3, shapes};
 use proptest::prelude::*;
 
 fn curve(name: &str, vertices: &[u32]) -> NetworkCurve {
-    NetworkCurve { name: name.into(), vertices: vertices.to_vec(), closed: false, control: None }
+    NetworkCurve { name: name.into(), vertices: vertices.to_vec(), ..NetworkCurve::default() }
 }
 
 fn network(curves: Vec<NetworkCurve>) -> CurveNetwork {
@@ -205,6 +205,7 @@ proptest! {
             vertices,
             closed,
             control: control.map(|count| vec![Vec3::new(0.5, 0.5, i as f64); count]),
+            ..NetworkCurve::default()
         });
         let mut network = network(curves.collect());
         if smooth {

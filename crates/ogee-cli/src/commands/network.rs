@@ -19,7 +19,7 @@ use serde::Serialize;
 use crate::arguments::OutputArguments;
 use crate::cage::{Cage, CageArguments, read_bytes};
 use crate::error::{Failure, Finding, Where};
-use crate::names::{CROSSINGS, Format, PLACINGS, formats};
+use crate::names::{CROSSINGS, Format, PLACINGS, SCHEMES, Scheme, formats};
 use crate::output::{Counter, Destination};
 use crate::part::{PartArguments, PartFormat, PartReport};
 use crate::report::{Console, Table, bytes, count, figure};
@@ -51,6 +51,9 @@ pub(crate) struct Network {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Network")]
 struct Laying {
+    /// A paper's own form, in place of the options of the file: of 2004, which wants --t, or generalised, with t = 1/2
+    #[arg(long, value_name = "SCHEME", value_parser = SCHEMES)]
+    scheme: Option<Scheme>,
     /// How the quads around meeting points are placed [default: what the file says, else eigen]
     #[arg(long, value_name = "MODE", value_parser = PLACINGS)]
     x_mode: Option<Placing>,
@@ -72,6 +75,15 @@ struct Laying {
     /// Refuse the network where the mesh beside it would have to be changed
     #[arg(long)]
     no_repair: bool,
+    /// Turn curves that meet into one plane where they do; the report says by how much
+    #[arg(long)]
+    flatten: bool,
+    /// Turn a curve that goes through a meeting point until it has no kink there; the report says by how much
+    #[arg(long)]
+    straighten: bool,
+    /// Move all points that curves do not hold to where the surface bends least
+    #[arg(long)]
+    fair: bool,
 }
 
 /// What can be written.
@@ -188,7 +200,7 @@ impl Network {
 
         progress.step("laying the network");
         let start = Instant::now();
-        let network = self.options.applied(file.network.clone());
+        let network = self.options.applied(file.network.clone())?;
         let embedding = embed(&network, cage.mesh()).map_err(|error| refused(&error, &cage, &file_name))?;
         let embed = start.elapsed().as_secs_f64();
         let start = Instant::now();
@@ -292,8 +304,16 @@ impl Network {
 
 impl Laying {
     /// The network with the options that were typed.
-    fn applied(&self, mut network: CurveNetwork) -> CurveNetwork {
+    fn applied(&self, mut network: CurveNetwork) -> Result<CurveNetwork, Failure> {
         let options = &mut network.options;
+        match (self.scheme, self.t) {
+            (None, _) => {}
+            (Some(Scheme::Generalised), _) => *options = NetworkOptions::generalised(),
+            (Some(Scheme::AbbasNasri2004), Some(t)) => *options = NetworkOptions::abbas_nasri_2004(t),
+            (Some(Scheme::AbbasNasri2004), None) => {
+                return Err(Failure::usage("--scheme abbas-nasri-2004 has a parameter: say --t T"));
+            }
+        }
         *options = NetworkOptions {
             placing: self.x_mode.unwrap_or(options.placing),
             parameter: self.t.or(options.parameter),
@@ -302,8 +322,11 @@ impl Laying {
             force_ribbons: options.force_ribbons || self.force_ribbons,
             ribbon_width: self.theta.unwrap_or(options.ribbon_width),
             repair: options.repair && !self.no_repair,
+            flatten: options.flatten || self.flatten,
+            straighten: options.straighten || self.straighten,
+            fair: options.fair || self.fair,
         };
-        network
+        Ok(network)
     }
 }
 
@@ -360,6 +383,7 @@ fn paths(network: &CurveNetwork, embedding: &Embedding) -> Vec<NetworkCurve> {
         vertices: segment.vertices.clone(),
         closed: segment.target.is_closed(),
         control: Some(segment.target.control().to_vec()),
+        ..NetworkCurve::default()
     };
     embedding.segments.iter().map(path).collect()
 }
@@ -418,6 +442,7 @@ fn meeting_reports(
             mode: match network.meeting(*center).placing.unwrap_or_default() {
                 Placing::Eigen => "eigen",
                 Placing::Parallelogram => "parallelogram",
+                Placing::Symmetric => "symmetric",
                 Placing::Keep => "keep",
             },
             coplanarity_deg: figures.coplanarity_deg,

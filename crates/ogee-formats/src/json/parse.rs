@@ -6,7 +6,7 @@ use serde::Deserialize;
 use serde::de::{Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
 /// Keys of a network of curves that stands in the same file.
-const OF_NETWORKS: [&str; 3] = ["curves", "options", "meeting"];
+const OF_NETWORKS: [&str; 4] = ["curves", "options", "meeting", "points"];
 
 /// The values of the keys, as the file gives them.
 #[derive(Default)]

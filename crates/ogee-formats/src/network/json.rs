@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use ogee::Vec3;
-use ogee::curve_network::{Crossing, MeetingOptions, NetworkOptions, Placing, PreSplit};
+use ogee::curve_network::{Crossing, MeetingOptions, NetworkOptions, Placing, PointConstraint, PreSplit};
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, IgnoredAny, MapAccess, Visitor};
 
@@ -37,6 +37,7 @@ struct RawNetwork {
     curves: Option<Vec<RawCurve>>,
     options: Option<RawOptions>,
     meeting: Option<BTreeMap<String, RawMeeting>>,
+    points: Option<Vec<RawPoint>>,
     unknown: Vec<String>,
 }
 
@@ -51,11 +52,16 @@ struct RawCurve {
     through: Option<Vec<[f64; 3]>>,
     #[serde(default)]
     refit: bool,
+    #[serde(default)]
+    normals: Vec<Option<[f64; 3]>>,
+    #[serde(default)]
+    cross_curvatures: Vec<Option<f64>>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RawOptions {
+    scheme: Option<RawScheme>,
     x_mode: Option<RawPlacing>,
     t: Option<f64>,
     pre_split: Option<RawPreSplit>,
@@ -63,6 +69,9 @@ struct RawOptions {
     force_ribbons: Option<bool>,
     theta: Option<f64>,
     repair: Option<bool>,
+    flatten: Option<bool>,
+    straighten: Option<bool>,
+    fair: Option<bool>,
 }
 
 #[derive(Deserialize)]
@@ -72,6 +81,24 @@ struct RawMeeting {
     t: Option<f64>,
     normal: Option<[f64; 3]>,
     crown: Option<f64>,
+    flatten: Option<bool>,
+    straighten: Option<bool>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawPoint {
+    vertex: u32,
+    position: Option<[f64; 3]>,
+    normal: Option<[f64; 3]>,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum RawScheme {
+    #[serde(rename = "abbas-nasri-2004")]
+    AbbasNasri2004,
+    Generalised,
 }
 
 #[derive(Clone, Copy, Deserialize)]
@@ -79,6 +106,7 @@ struct RawMeeting {
 enum RawPlacing {
     Eigen,
     Parallelogram,
+    Symmetric,
     Keep,
 }
 
@@ -97,6 +125,7 @@ impl From<RawPlacing> for Placing {
         match raw {
             RawPlacing::Eigen => Placing::Eigen,
             RawPlacing::Parallelogram => Placing::Parallelogram,
+            RawPlacing::Symmetric => Placing::Symmetric,
             RawPlacing::Keep => Placing::Keep,
         }
     }
@@ -125,7 +154,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<NetworkFile, ReadError> {
         }
     }
     if let Some(raw) = raw.options {
-        file.network.options = options(&raw);
+        file.network.options = options(&raw).map_err(ReadError::single)?;
     }
     for (key, raw) in raw.meeting.unwrap_or_default() {
         let Ok(vertex) = key.parse() else {
@@ -135,6 +164,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<NetworkFile, ReadError> {
         };
         file.network.meetings.insert(vertex, meeting(&raw));
     }
+    let points = raw.points.unwrap_or_default().into_iter().map(|raw| PointConstraint {
+        vertex: raw.vertex,
+        position: raw.position.map(Vec3::from),
+        normal: raw.normal.map(Vec3::from),
+    });
+    file.network.points = points.collect();
     faults.into_result()?;
     Ok(file)
 }
@@ -153,14 +188,23 @@ fn draft(number: usize, raw: RawCurve) -> Result<Draft, Fault> {
             return Err(wrong("it has \"control\" and \"through\"; give one of them".into()));
         }
     };
-    Ok(Draft { line: None, vertices, closed: raw.closed, shape, name })
+    let normals = raw.normals.into_iter().map(|normal| normal.map(Vec3::from)).collect();
+    let cross_curvatures = raw.cross_curvatures;
+    Ok(Draft { vertices, closed: raw.closed, shape, normals, cross_curvatures, ..Draft::new(None, name) })
 }
 
-fn options(raw: &RawOptions) -> NetworkOptions {
-    let usual = NetworkOptions::default();
-    NetworkOptions {
+fn options(raw: &RawOptions) -> Result<NetworkOptions, Fault> {
+    let usual = match (raw.scheme, raw.t) {
+        (None, _) => NetworkOptions::default(),
+        (Some(RawScheme::Generalised), _) => NetworkOptions::generalised(),
+        (Some(RawScheme::AbbasNasri2004), Some(t)) => NetworkOptions::abbas_nasri_2004(t),
+        (Some(RawScheme::AbbasNasri2004), None) => {
+            return Err(Fault::new("bad_curve", "the scheme of 2004 has a parameter: give \"t\""));
+        }
+    };
+    Ok(NetworkOptions {
         placing: raw.x_mode.map_or(usual.placing, Placing::from),
-        parameter: raw.t,
+        parameter: raw.t.or(usual.parameter),
         pre_split: raw.pre_split.as_ref().map_or(usual.pre_split, |pre_split| pre_split.0),
         crossing: match raw.crossing {
             Some(RawCrossing::Pin) => Crossing::Pin,
@@ -170,7 +214,10 @@ fn options(raw: &RawOptions) -> NetworkOptions {
         force_ribbons: raw.force_ribbons.unwrap_or(usual.force_ribbons),
         ribbon_width: raw.theta.unwrap_or(usual.ribbon_width),
         repair: raw.repair.unwrap_or(usual.repair),
-    }
+        flatten: raw.flatten.unwrap_or(usual.flatten),
+        straighten: raw.straighten.unwrap_or(usual.straighten),
+        fair: raw.fair.unwrap_or(usual.fair),
+    })
 }
 
 fn meeting(raw: &RawMeeting) -> MeetingOptions {
@@ -179,6 +226,8 @@ fn meeting(raw: &RawMeeting) -> MeetingOptions {
         parameter: raw.t,
         normal: raw.normal.map(Vec3::from),
         crown: raw.crown.unwrap_or(0.0),
+        flatten: raw.flatten,
+        straighten: raw.straighten,
     }
 }
 
@@ -203,6 +252,7 @@ impl<'de> Deserialize<'de> for RawNetwork {
                         "vertices" => once(&mut network.vertices, &mut map, "vertices")?,
                         "curves" => once(&mut network.curves, &mut map, "curves")?,
                         "options" => once(&mut network.options, &mut map, "options")?,
+                        "points" => once(&mut network.points, &mut map, "points")?,
                         "meeting" => once(&mut network.meeting, &mut map, "meeting")?,
                         _ => {
                             map.next_value::<IgnoredAny>()?;

@@ -11,7 +11,12 @@
 //! Only `curves` has to be there, and of a curve only `vertices`: vertices of the cage along its edges. What the surface's curve is
 //! to be is said by `control`, its control points, one per vertex; by `through`, points that it goes through, one per vertex; or
 //! by neither, and the vertices themselves are the control points. With `"refit": true` another number of control points does as
-//! well. The cage may stand in the same file.
+//! well. `normals` are those that the surface is to have at the vertices, `cross_curvatures` its normal curvatures across the curve,
+//! one per vertex, `null` where any will do. The cage may stand in the same file.
+//!
+//! `"fair": true` among the options moves all points that curves do not hold to where the surface bends least; then `points`, a
+//! list of `{"vertex": v, "position": [x, y, z], "normal": [x, y, z]}`, are met as well. `"scheme"` is `"abbas-nasri-2004"` or
+//! `"generalised"`: the papers' own forms. `"flatten"` and `"straighten"` change curves so that the surface can be smooth.
 //!
 //! In OBJ each line `l v1 v2 ..` is a curve, closed if it ends where it began, with the name of the `o` or `g` before it. A
 //! comment `#curve-control NAME x y z x y z ..` gives its control points.
@@ -100,6 +105,24 @@ struct Draft {
     vertices: Vec<u32>,
     closed: bool,
     shape: Shape,
+    normals: Vec<Option<Vec3>>,
+    cross_curvatures: Vec<Option<f64>>,
+}
+
+impl Draft {
+    /// An open curve without vertices.
+    fn new(line: Option<u32>, name: String) -> Draft {
+        let (normals, cross_curvatures) = (Vec::new(), Vec::new());
+        Draft {
+            line,
+            name,
+            vertices: Vec::new(),
+            closed: false,
+            shape: Shape::Vertices,
+            normals,
+            cross_curvatures,
+        }
+    }
 }
 
 /// What a curve is to be.
@@ -116,7 +139,7 @@ enum Shape {
 
 /// The curve; a warning where it had to be fitted.
 fn finish(draft: Draft) -> Result<(NetworkCurve, Option<Warning>), Fault> {
-    let Draft { line, name, vertices, closed, shape } = draft;
+    let Draft { line, name, vertices, closed, shape, normals, cross_curvatures } = draft;
     let wrong = |reason: String| Fault::new("bad_curve", format!("curve {name}: {reason}")).on_line(line);
     let mut warning = None;
     let control = match shape {
@@ -146,5 +169,5 @@ fn finish(draft: Draft) -> Result<(NetworkCurve, Option<Warning>), Fault> {
             Some(curve.control().to_vec())
         }
     };
-    Ok((NetworkCurve { name, vertices, closed, control }, warning))
+    Ok((NetworkCurve { name, vertices, closed, control, normals, cross_curvatures }, warning))
 }

@@ -107,7 +107,7 @@ impl Reader {
             }
             let control = self.control.remove(&name);
             let shape = control.map_or(Shape::Vertices, |(_, points)| Shape::Control(points));
-            match finish(Draft { line: Some(line), name, vertices, closed, shape }) {
+            match finish(Draft { vertices, closed, shape, ..Draft::new(Some(line), name) }) {
                 Ok((curve, warning)) => {
                     file.network.curves.push(curve);
                     file.warnings.extend(warning);

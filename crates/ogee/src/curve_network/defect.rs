@@ -75,6 +75,23 @@ pub enum NetworkDefect {
     CrossingNotRegular { curve: String, other: String, vertex: u32 },
     #[error("there is no room for the network at vertex {vertex}; allow one more split before it is laid")]
     Repair { vertex: u32 },
+    #[error("curve {curve} has {given} {what} for {vertices} vertices; give one for each, or none")]
+    ConstraintLength { curve: String, what: &'static str, given: usize, vertices: usize },
+    #[error("{what} wanted at vertex {vertex} is no finite number, or a normal without length; mend it")]
+    ConstraintNotFinite { what: &'static str, vertex: u32 },
+    #[error("a point is wanted at vertex {vertex}, but there are only {count}; name one of these")]
+    PointVertex { vertex: u32, count: usize },
+    #[error("points are wanted, first at vertex {vertex}, which only fairing can give; allow it")]
+    PointsWithoutFairing { vertex: u32 },
+    #[error(
+        "{what} at vertex {vertex} contradicts the rest: it is missed by {residual:e} of its size; take it away, or what is \
+         against it"
+    )]
+    Contradiction { vertex: u32, what: String, residual: f64 },
+    #[error(
+        "fairing found no solution: the residual stays at {residual:e}; fix more vertices or take constraints away"
+    )]
+    Fairing { residual: f64 },
     #[error("{what} is {value}, which is not in its range; {remedy}")]
     Parameter { what: String, value: f64, remedy: &'static str },
 }
@@ -104,10 +121,16 @@ impl NetworkDefect {
             | NetworkDefect::BorderMeeting { vertex, .. }
             | NetworkDefect::PathValence { vertex, .. }
             | NetworkDefect::CrossingNotRegular { vertex, .. }
+            | NetworkDefect::ConstraintNotFinite { vertex, .. }
+            | NetworkDefect::PointVertex { vertex, .. }
+            | NetworkDefect::PointsWithoutFairing { vertex }
+            | NetworkDefect::Contradiction { vertex, .. }
             | NetworkDefect::Repair { vertex } => Some(Place::Vertex(vertex)),
             NetworkDefect::CurveShort { .. }
             | NetworkDefect::TargetLength { .. }
             | NetworkDefect::TargetNotFinite { .. }
+            | NetworkDefect::ConstraintLength { .. }
+            | NetworkDefect::Fairing { .. }
             | NetworkDefect::Parameter { .. } => None,
         }
     }
@@ -138,6 +161,12 @@ impl NetworkDefect {
             NetworkDefect::CrossingNotRegular { .. } => "E_CROSSING_NOT_REGULAR",
             NetworkDefect::Repair { .. } => "E_REPAIR",
             NetworkDefect::Parameter { .. } => "E_PARAMETER",
+            NetworkDefect::ConstraintLength { .. } => "E_CONSTRAINT_LENGTH",
+            NetworkDefect::ConstraintNotFinite { .. } => "E_CONSTRAINT_NOT_FINITE",
+            NetworkDefect::PointVertex { .. } => "E_POINT_VERTEX",
+            NetworkDefect::PointsWithoutFairing { .. } => "E_POINTS_WITHOUT_FAIRING",
+            NetworkDefect::Contradiction { .. } => "E_CONTRADICTION",
+            NetworkDefect::Fairing { .. } => "E_FAIRING",
         }
     }
 }

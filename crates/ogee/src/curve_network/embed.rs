@@ -82,16 +82,22 @@ fn embed_split(
     plan: &NetworkPlan,
     mesh: &ControlMesh,
 ) -> Result<Embedding, NetworkError> {
-    let (cage, split) = plan.split(mesh)?;
+    let (cage, mut split) = plan.split(mesh)?;
     let topology = Topology::new(&cage).map_err(|error| NetworkError {
         defects: error.defects.into_iter().map(NetworkDefect::Mesh).collect(),
     })?;
     let paths: Vec<TaggedPath> = split.segments.iter().map(path).collect();
     // Before repair and after it a point has one normal: a sector that gets a dummy port keeps it.
-    let site = |meeting: &MeetingVertex| {
-        split.site(network, meeting, ring_normal(&topology, &cage.points, meeting.vertex))
-    };
-    let sites: Vec<Site> = split.meetings.iter().map(site).collect();
+    let normals: Vec<Vec3> =
+        split.meetings.iter().map(|meeting| ring_normal(&topology, &cage.points, meeting.vertex)).collect();
+    let mut warnings = plan.warnings.clone();
+    warnings.extend(split.turn_legs(network, &normals));
+    let sites: Vec<Site> = split
+        .meetings
+        .iter()
+        .zip(normals)
+        .map(|(meeting, normal)| split.site(network, meeting, normal))
+        .collect();
     let ports: Vec<MeetingPorts> =
         split.meetings.iter().zip(&sites).map(|(meeting, site)| dummy_ports(&split, meeting, site)).collect();
     let ribbons = Ribbons { forced: network.options.force_ribbons, width: network.options.ribbon_width };
@@ -105,7 +111,6 @@ fn embed_split(
     let topology = Topology::new(&room).map_err(|error| NetworkError {
         defects: error.defects.into_iter().map(NetworkDefect::Mesh).collect(),
     })?;
-    let mut warnings = plan.warnings.clone();
     warnings.extend(overlaps.into_iter().map(|vertex| NetworkWarning::XOverlap { vertex }));
     let mut x_configurations = Vec::new();
     for ((meeting, site), mut ring) in split.meetings.iter().zip(&sites).zip(rings) {

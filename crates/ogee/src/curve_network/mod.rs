@@ -27,6 +27,7 @@ mod sectors;
 mod tangent_plane;
 mod target_curve;
 mod tridiagonal;
+mod turn_legs;
 mod warning;
 mod x_configuration;
 mod x_matrix;
@@ -36,7 +37,9 @@ pub use defect::{NetworkDefect, NetworkError};
 pub use embed::{Embedding, XConfiguration, embed};
 pub use fold::least_turn;
 pub use measure::{MeetingFigures, NetworkFigures};
-pub use network::{Crossing, CurveNetwork, MeetingOptions, NetworkCurve, NetworkOptions, Placing, PreSplit};
+pub use network::{
+    Crossing, CurveNetwork, MeetingOptions, NetworkCurve, NetworkOptions, Placing, PointConstraint, PreSplit,
+};
 pub use place::{Arrival, Placement, Site, place};
 pub use plan::{MeetingVertex, NetworkPlan, Segment, SegmentEnd, ring_normal};
 pub use repair::{MeetingPorts, Repaired, Ribbons, TaggedPath, repair};

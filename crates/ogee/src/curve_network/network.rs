@@ -13,6 +13,8 @@ pub struct CurveNetwork {
     pub options: NetworkOptions,
     /// Choices for single meeting points, by vertex of the cage.
     pub meetings: BTreeMap<u32, MeetingOptions>,
+    /// Points that the surface is to go through, and normals it is to have there. They need [`NetworkOptions::fair`].
+    pub points: Vec<PointConstraint>,
 }
 
 /// A curve: a path of edges, and the control points that the curve of the surface is to have.
@@ -26,6 +28,13 @@ pub struct NetworkCurve {
     pub closed: bool,
     /// One control point per vertex; `None` for the vertices' own positions.
     pub control: Option<Vec<Vec3>>,
+    /// Normals that the surface is to have where the vertices end up: one per vertex, `None` where any will do; or empty.
+    /// They need not be unit vectors. One that leans along the curve is made perpendicular to it.
+    pub normals: Vec<Option<Vec3>>,
+    /// Normal curvatures that the surface is to have there, across the curve, one over a length: one per vertex, `None`
+    /// where any will do; or empty. Positive where the surface bends towards its normal, so that spheres seen from outside
+    /// have negative ones.
+    pub cross_curvatures: Vec<Option<f64>>,
 }
 
 /// Choices for a whole network.
@@ -46,6 +55,15 @@ pub struct NetworkOptions {
     pub ribbon_width: f64,
     /// Whether the mesh beside the curves may be changed where it has to be.
     pub repair: bool,
+    /// Turn the first legs of curves that meet into one plane, so that the surface is smooth there. This changes the curves;
+    /// warnings say by how much.
+    pub flatten: bool,
+    /// Turn the first legs of a curve that goes through a meeting point until they are opposite, so that it is smooth there.
+    /// This changes the curve; warnings say by how much.
+    pub straighten: bool,
+    /// Move all points that the network does not hold to where the surface between the curves bends least: of all that go
+    /// through the network's [points](CurveNetwork::points).
+    pub fair: bool,
 }
 
 impl Default for NetworkOptions {
@@ -58,7 +76,25 @@ impl Default for NetworkOptions {
             force_ribbons: false,
             ribbon_width: 0.5,
             repair: true,
+            flatten: false,
+            straighten: false,
+            fair: false,
         }
+    }
+}
+
+impl NetworkOptions {
+    /// The scheme of Abbas and Nasri 2004: symmetric X-configurations, all with the parameter `t`.
+    ///
+    /// Its curves are exact here in any case; without fixed centres, as in the paper, they are where tangents are symmetric.
+    pub fn abbas_nasri_2004(t: f64) -> NetworkOptions {
+        NetworkOptions { placing: Placing::Symmetric, parameter: Some(t), ..NetworkOptions::default() }
+    }
+
+    /// Abbas and Nasri's generalised scheme: parallelograms, and `t = 1/2` everywhere. With three ports or more the surface
+    /// need not have a tangent plane there, of which every such meeting point is told.
+    pub fn generalised() -> NetworkOptions {
+        NetworkOptions { placing: Placing::Parallelogram, parameter: Some(0.5), ..NetworkOptions::default() }
     }
 }
 
@@ -70,6 +106,8 @@ pub enum Placing {
     Eigen,
     /// As parallelograms of the tangents: [`XRing::parallelogram`](super::XRing::parallelogram).
     Parallelogram,
+    /// Every quad as the mirror image, through the centre, of the one opposite: [`XRing::symmetric`](super::XRing::symmetric).
+    Symmetric,
     /// They stay where they are.
     Keep,
 }
@@ -105,6 +143,22 @@ pub struct MeetingOptions {
     pub normal: Option<Vec3>,
     /// How far free spokes are lifted along the normal, a length: it bends the surface between the curves.
     pub crown: f64,
+    /// Turn first legs into one plane: [`NetworkOptions::flatten`]; `None` as in the rest of the network.
+    pub flatten: Option<bool>,
+    /// Make the legs of a curve that goes through opposite: [`NetworkOptions::straighten`]; `None` as in the rest of the
+    /// network.
+    pub straighten: Option<bool>,
+}
+
+/// What the surface is to do where a vertex of the cage ends up.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PointConstraint {
+    /// The vertex.
+    pub vertex: u32,
+    /// The point it is to end up at; `None` for any.
+    pub position: Option<Vec3>,
+    /// The normal of the surface there, not necessarily a unit vector; `None` for any.
+    pub normal: Option<Vec3>,
 }
 
 impl CurveNetwork {
@@ -114,6 +168,8 @@ impl CurveNetwork {
         MeetingOptions {
             placing: own.placing.or(Some(self.options.placing)),
             parameter: own.parameter.or(self.options.parameter),
+            flatten: own.flatten.or(Some(self.options.flatten)),
+            straighten: own.straighten.or(Some(self.options.straighten)),
             ..own
         }
     }

@@ -13,6 +13,9 @@ const ANGLE_TOLERANCE: f64 = 0.1;
 /// The least turn that a parameter passes with.
 const MARGIN: f64 = 0.02;
 
+/// Of the longest tangent, how far mirror images may be off.
+const SYMMETRIC: f64 = 1e-9;
+
 /// Sines below this are zero.
 const ROUNDING: f64 = 1e-12;
 
@@ -73,9 +76,15 @@ pub fn place(site: &Site) -> Option<Placement> {
     let mut ring = match options.placing.unwrap_or_default() {
         Placing::Eigen | Placing::Keep => XRing::eigen(&tangents, parameter, plane.normal),
         Placing::Parallelogram => XRing::parallelogram(&tangents, 1.0, plane.normal),
+        Placing::Symmetric => XRing::symmetric(&tangents, parameter, plane.normal),
     };
+    let mut warnings = warnings(site, &plane, parameter, ports.len(), least_turn);
+    let longest = tangents.iter().fold(0.0_f64, |longest, tangent| longest.max(tangent.length()));
+    let distance = ring.asymmetry();
+    if options.placing == Some(Placing::Symmetric) && distance > SYMMETRIC * longest {
+        warnings.push(NetworkWarning::NotSymmetric { vertex: site.vertex, distance });
+    }
     ring.crown(options.crown * plane.normal);
-    let warnings = warnings(site, &plane, parameter, ports.len(), least_turn);
     Some(Placement { ring, parameter, normal: plane.normal, ports, least_turn, warnings })
 }
 

@@ -116,7 +116,11 @@ impl NetworkPlan {
                 to: s.vertices[1],
             });
         refuse(adjacent.chain(check_crossings(network, &topology, &incidence, pre_split)).collect())?;
-        let meetings = of_role(Role::Meeting).map(|v| meeting(v, &topology, &segments)).collect();
+        let meetings: Vec<MeetingVertex> =
+            of_role(Role::Meeting).map(|v| meeting(v, &topology, &segments)).collect();
+        let meets = |vertex: &u32| meetings.binary_search_by_key(vertex, |meeting| meeting.vertex).is_ok();
+        let choices = network.meetings.keys().copied();
+        warnings.extend(choices.filter(|v| !meets(v)).map(|vertex| NetworkWarning::NoMeeting { vertex }));
         Ok(NetworkPlan { segments, meetings, smooth_crossings, pre_split, warnings })
     }
 

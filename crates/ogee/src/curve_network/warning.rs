@@ -41,6 +41,44 @@ pub enum NetworkWarning {
          begin the curve there to keep it"
     )]
     RimEndMoved { vertex: u32, curve: String, distance: f64 },
+    #[error(
+        "the normal wanted at vertex {vertex} leans along curve {curve} by {angle_deg:.3} degrees and was made perpendicular \
+         to it"
+    )]
+    NormalTilted { vertex: u32, curve: String, angle_deg: f64 },
+    #[error(
+        "the normal wanted at vertex {vertex} of curve {curve} is missed by {angle_deg:.3} degrees: other curves decide it \
+         there; allow more splits, or want none"
+    )]
+    NormalMissed { vertex: u32, curve: String, angle_deg: f64 },
+    #[error(
+        "the cross curvature wanted at vertex {vertex} of curve {curve} is missed by {difference:.6}: other curves decide it \
+         there; allow more splits, or want none"
+    )]
+    CrossCurvatureMissed { vertex: u32, curve: String, difference: f64 },
+    #[error(
+        "curve {curve} was turned by {angle_deg:.3} degrees where it leaves vertex {vertex}, into the plane of the others"
+    )]
+    Flattened { vertex: u32, curve: String, angle_deg: f64 },
+    #[error(
+        "a kink of {angle_deg:.3} degrees of curve {curve} at vertex {vertex} was taken away: both legs were turned by half \
+         of it or so"
+    )]
+    Straightened { vertex: u32, curve: String, angle_deg: f64 },
+    #[error("there are choices for vertex {vertex}, but no curves meet there; take them away")]
+    NoMeeting { vertex: u32 },
+    #[error(
+        "a ring mirrored through vertex {vertex} was asked for, but the curves there are not: ports are off by \
+         {distance:.6}; place it otherwise"
+    )]
+    NotSymmetric { vertex: u32, distance: f64 },
+    #[error("{what} at vertex {vertex} follows from the rest; it may be left out")]
+    ConstraintRedundant { vertex: u32, what: String },
+    #[error(
+        "texture coordinates were left behind where the mesh was changed beside curves, first at vertex {vertex}; allow no \
+         repair, or map again"
+    )]
+    UvDropped { vertex: u32 },
 }
 
 impl NetworkWarning {
@@ -54,6 +92,15 @@ impl NetworkWarning {
             NetworkWarning::CarryKink { .. } => "W_CARRY_KINK",
             NetworkWarning::THalf { .. } => "W_T_HALF",
             NetworkWarning::RimEndMoved { .. } => "W_RIM_END_MOVED",
+            NetworkWarning::NormalTilted { .. } => "W_NORMAL_TILTED",
+            NetworkWarning::NormalMissed { .. } => "W_NORMAL_MISSED",
+            NetworkWarning::CrossCurvatureMissed { .. } => "W_CROSS_CURVATURE_MISSED",
+            NetworkWarning::Flattened { .. } => "W_FLATTENED",
+            NetworkWarning::Straightened { .. } => "W_STRAIGHTENED",
+            NetworkWarning::NoMeeting { .. } => "W_NO_MEETING",
+            NetworkWarning::NotSymmetric { .. } => "W_NOT_SYMMETRIC",
+            NetworkWarning::ConstraintRedundant { .. } => "W_CONSTRAINT_REDUNDANT",
+            NetworkWarning::UvDropped { .. } => "W_UV_DROPPED",
         }
     }
 
@@ -66,20 +113,39 @@ impl NetworkWarning {
             | NetworkWarning::XOverlap { vertex }
             | NetworkWarning::CarryKink { vertex, .. }
             | NetworkWarning::THalf { vertex, .. }
-            | NetworkWarning::RimEndMoved { vertex, .. } => vertex,
+            | NetworkWarning::RimEndMoved { vertex, .. }
+            | NetworkWarning::NormalTilted { vertex, .. }
+            | NetworkWarning::NormalMissed { vertex, .. }
+            | NetworkWarning::CrossCurvatureMissed { vertex, .. }
+            | NetworkWarning::Flattened { vertex, .. }
+            | NetworkWarning::Straightened { vertex, .. }
+            | NetworkWarning::NoMeeting { vertex }
+            | NetworkWarning::NotSymmetric { vertex, .. }
+            | NetworkWarning::ConstraintRedundant { vertex, .. }
+            | NetworkWarning::UvDropped { vertex } => vertex,
         }
     }
 
-    /// How much: an angle in degrees, a sine, a length, or `t`; `None` where there is nothing to measure.
+    /// How much: an angle in degrees, a sine, a length, a curvature, or `t`; `None` where there is nothing to measure.
     pub fn value(&self) -> Option<f64> {
         match *self {
             NetworkWarning::TangentsNotCoplanar { angle_deg, .. }
+            | NetworkWarning::NormalTilted { angle_deg, .. }
+            | NetworkWarning::NormalMissed { angle_deg, .. }
+            | NetworkWarning::Flattened { angle_deg, .. }
+            | NetworkWarning::Straightened { angle_deg, .. }
             | NetworkWarning::CarryKink { angle_deg, .. } => Some(angle_deg),
             NetworkWarning::TangentOrder { turn_deg, .. } => Some(turn_deg),
             NetworkWarning::XFold { sine, .. } => Some(sine),
-            NetworkWarning::XOverlap { .. } => None,
+            NetworkWarning::XOverlap { .. }
+            | NetworkWarning::NoMeeting { .. }
+            | NetworkWarning::ConstraintRedundant { .. }
+            | NetworkWarning::UvDropped { .. } => None,
+            NetworkWarning::CrossCurvatureMissed { difference, .. } => Some(difference),
             NetworkWarning::THalf { t, .. } => Some(t),
-            NetworkWarning::RimEndMoved { distance, .. } => Some(distance),
+            NetworkWarning::RimEndMoved { distance, .. } | NetworkWarning::NotSymmetric { distance, .. } => {
+                Some(distance)
+            }
         }
     }
 }

@@ -15,6 +15,7 @@
 //! smooth the surface is depends on them. Near the centre the surface looks like the ring that refinement only halves:
 //! [`XRing::eigen`].
 
+use super::complex::reposition;
 use crate::math::Vec3;
 use std::f64::consts::{PI, TAU};
 
@@ -94,6 +95,39 @@ impl XRing {
         let after: Vec<Vec3> = (0..count).map(|j| tangents[j] + free[j]).collect();
         let before: Vec<Vec3> = (0..count).map(|j| tangents[j] + free[(j + count - 1) % count]).collect();
         XRing::from_parts(tangents, &free, &after, &before)
+    }
+
+    /// The symmetric configuration (Abbas and Nasri 2004): every slice is the mirror image, through the centre, of the one
+    /// opposite, as far as the tangents allow. Corners, and free spokes opposite others, are the mean of those of the eigen
+    /// configuration and their mirror images; ports follow from their curves, and with an odd number of them free spokes are
+    /// their mirror images.
+    pub fn symmetric(tangents: &[Vec3], t: f64, normal: Vec3) -> XRing {
+        let mut ring = XRing::eigen(tangents, t, normal);
+        let (ports, spokes) = (tangents.len(), 2 * tangents.len());
+        let mirrored = |list: &[Vec3], i: usize| (list[i] - list[(i + ports) % spokes]) / 2.0;
+        ring.corners = (0..spokes).map(|i| mirrored(&ring.corners, i)).collect();
+        for (j, &tangent) in tangents.iter().enumerate() {
+            ring.ring[2 * j] = reposition(tangent, ring.corner_after(j), ring.corner_before(j));
+        }
+        // Port and free spoke are opposite if their number is odd: then the ports decide.
+        let free: Vec<Vec3> = (0..ports)
+            .map(|j| match ports % 2 {
+                0 => mirrored(&ring.ring, 2 * j + 1),
+                _ => -ring.ring[(2 * j + 1 + ports) % spokes],
+            })
+            .collect();
+        for (j, free) in free.into_iter().enumerate() {
+            ring.ring[2 * j + 1] = free;
+        }
+        ring
+    }
+
+    /// How far the points of the ring are from being mirrored in the centre: the longest sum of two opposite ones.
+    pub fn asymmetry(&self) -> f64 {
+        let half = self.ports();
+        let worst =
+            |list: &[Vec3]| (0..half).map(|i| (list[i] + list[i + half]).length()).fold(0.0, f64::max);
+        worst(&self.ring).max(worst(&self.corners))
     }
 
     /// Lifts every free spoke by the same vector: an eigenvector of eigenvalue 1/4, so it bends the surface between the
@@ -240,6 +274,29 @@ mod tests {
             let ring = XRing::eigen(&star, default_parameter(count), Vec3::ZERO);
             assert!(ring.ring.iter().all(|spoke| (spoke.length() - 1.0).abs() < 1e-14), "{count} ports");
         }
+    }
+
+    #[test]
+    fn symmetric_rings_are_their_mirror_images_where_tangents_are() {
+        for count in 2..9 {
+            let at = |j: usize| TAU * j as f64 / count as f64;
+            let star: Vec<Vec3> = (0..count).map(|j| Vec3::new(at(j).cos(), at(j).sin(), 0.0)).collect();
+            for t in [0.1, 0.25, 0.5] {
+                let ring = XRing::symmetric(&star, t, Vec3::new(0.0, 0.0, 1.0));
+                assert!(ring.asymmetry() < 1e-14, "{count} ports, t = {t}: {ring:?}");
+                // The curves' own control points.
+                for (j, &tangent) in star.iter().enumerate() {
+                    let made = (ring.corner_after(j) + 4.0 * ring.port(j) + ring.corner_before(j)) / 6.0;
+                    assert!(made.distance(tangent) < 1e-15 * 8.0);
+                }
+            }
+            // Eigen rings are symmetric at the default parameter, as far as ports go.
+            let eigen = XRing::eigen(&star, default_parameter(count), Vec3::new(0.0, 0.0, 1.0));
+            assert!(eigen.asymmetry() < 1e-14);
+        }
+        // Free spokes opposite ports can be anywhere; ports opposite ports are where their curves are.
+        assert!(XRing::symmetric(&tangents(3), 0.25, Vec3::ZERO).asymmetry() < 1e-14);
+        assert!(XRing::symmetric(&tangents(4), 0.25, Vec3::ZERO).asymmetry() > 0.1);
     }
 
     #[test]
