@@ -133,7 +133,7 @@ enum Shape {
     Control(Vec<Vec3>),
     /// The same, fitted if there are not as many as vertices.
     Refit(Vec<Vec3>),
-    /// A curve with its knots there.
+    /// A curve through these points.
     Through(Vec<Vec3>),
 }
 
@@ -141,7 +141,7 @@ enum Shape {
 fn finish(draft: Draft) -> Result<(NetworkCurve, Option<Warning>), Fault> {
     let Draft { line, name, vertices, closed, shape, normals, cross_curvatures } = draft;
     let wrong = |reason: String| Fault::new("bad_curve", format!("curve {name}: {reason}")).on_line(line);
-    let mut warning = None;
+    let (mut warning, mut through) = (None, None);
     let control = match shape {
         Shape::Vertices => None,
         Shape::Control(control) => Some(control),
@@ -158,16 +158,10 @@ fn finish(draft: Draft) -> Result<(NetworkCurve, Option<Warning>), Fault> {
             }
             Some(fit.curve.control().to_vec())
         }
-        Shape::Through(points) if points.len() != vertices.len() => {
-            let (points, vertices) = (points.len(), vertices.len());
-            return Err(wrong(format!(
-                "it is to go through {points} points, and has {vertices} vertices; give one for each"
-            )));
-        }
         Shape::Through(points) => {
-            let curve = TargetCurve::through(&points, closed).map_err(|error| wrong(error.to_string()))?;
-            Some(curve.control().to_vec())
+            through = Some(points);
+            None
         }
     };
-    Ok((NetworkCurve { name, vertices, closed, control, normals, cross_curvatures }, warning))
+    Ok((NetworkCurve { name, vertices, closed, control, through, normals, cross_curvatures }, warning))
 }

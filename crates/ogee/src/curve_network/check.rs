@@ -69,12 +69,17 @@ fn check_path(
 }
 
 fn check_control(curve: &NetworkCurve, defects: &mut Vec<NetworkDefect>) {
-    let Some(control) = &curve.control else { return };
-    let (name, points, vertices) = (curve.name.clone(), control.len(), curve.vertices.len());
-    if points != vertices {
-        defects.push(NetworkDefect::TargetLength { curve: name, points, vertices });
-    } else if let Some(index) = control.iter().position(|p| !p.is_finite()) {
-        defects.push(NetworkDefect::TargetNotFinite { curve: name, index });
+    let name = || curve.name.clone();
+    if curve.control.is_some() && curve.through.is_some() {
+        defects.push(NetworkDefect::TwoShapes { curve: name() });
+    }
+    for points in curve.control.iter().chain(&curve.through) {
+        let (given, vertices) = (points.len(), curve.vertices.len());
+        if given != vertices {
+            defects.push(NetworkDefect::TargetLength { curve: name(), points: given, vertices });
+        } else if let Some(index) = points.iter().position(|p| !p.is_finite()) {
+            defects.push(NetworkDefect::TargetNotFinite { curve: name(), index });
+        }
     }
 }
 

@@ -25,11 +25,11 @@ pub enum NetworkDefect {
     CurveShort { curve: String, vertices: usize, least: usize },
     #[error("curve {curve} names vertex {vertex} twice; cut it in two curves there, or mark it closed")]
     CurveRepeats { curve: String, vertex: u32 },
-    #[error(
-        "curve {curve} has {points} control points for {vertices} vertices; give one for each, or refit it"
-    )]
+    #[error("curve {curve} has {points} points for {vertices} vertices; give one for each, or refit it")]
     TargetLength { curve: String, points: usize, vertices: usize },
-    #[error("curve {curve}: control point {index} has a coordinate that is no finite number")]
+    #[error("curve {curve} has control points and points to go through; give one of the two")]
+    TwoShapes { curve: String },
+    #[error("curve {curve}: point {index} has a coordinate that is no finite number")]
     TargetNotFinite { curve: String, index: usize },
     #[error(
         "curve {curve} leaves the meeting point at vertex {vertex} without a direction: its first two control points are \
@@ -129,6 +129,7 @@ impl NetworkDefect {
             NetworkDefect::CurveShort { .. }
             | NetworkDefect::TargetLength { .. }
             | NetworkDefect::TargetNotFinite { .. }
+            | NetworkDefect::TwoShapes { .. }
             | NetworkDefect::ConstraintLength { .. }
             | NetworkDefect::Fairing { .. }
             | NetworkDefect::Parameter { .. } => None,
@@ -149,6 +150,7 @@ impl NetworkDefect {
             NetworkDefect::CurveShort { .. } => "E_CURVE_SHORT",
             NetworkDefect::CurveRepeats { .. } => "E_CURVE_REPEATS",
             NetworkDefect::TargetLength { .. } => "E_TARGET_LENGTH",
+            NetworkDefect::TwoShapes { .. } => "E_TWO_SHAPES",
             NetworkDefect::TargetNotFinite { .. } => "E_TARGET_NOT_FINITE",
             NetworkDefect::ZeroTangent { .. } => "E_ZERO_TANGENT",
             NetworkDefect::Crease { .. } | NetworkDefect::SharpVertex { .. } => "E_CREASE",

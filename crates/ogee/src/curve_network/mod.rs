@@ -26,6 +26,7 @@ pub(crate) mod rule;
 mod sectors;
 mod tangent_plane;
 mod target_curve;
+mod through;
 mod tridiagonal;
 mod turn_legs;
 mod warning;

@@ -28,6 +28,9 @@ pub struct NetworkCurve {
     pub closed: bool,
     /// One control point per vertex; `None` for the vertices' own positions.
     pub control: Option<Vec<Vec3>>,
+    /// Points that the curve is to go through, one per vertex, in place of control points. Between meeting points, where it ends
+    /// naturally, it is the spline with its knots there.
+    pub through: Option<Vec<Vec3>>,
     /// Normals that the surface is to have where the vertices end up: one per vertex, `None` where any will do; or empty.
     /// They need not be unit vectors. One that leans along the curve is made perpendicular to it.
     pub normals: Vec<Option<Vec3>>,

@@ -7,6 +7,7 @@ use super::incidence::{Incidence, Role, spokes};
 use super::network::{CurveNetwork, PreSplit};
 use super::place::{Arrival, Site};
 use super::target_curve::TargetCurve;
+use super::through::resolved;
 use super::warning::NetworkWarning;
 use crate::math::Vec3;
 use crate::mesh::{ControlMesh, Topology, VertexId};
@@ -89,6 +90,7 @@ impl NetworkPlan {
         refuse(already.collect())?;
         refuse(check_curves(network, mesh, &topology))?;
         let incidence = Incidence::new(network, &topology);
+        let network = &*resolved(network, &topology, &incidence);
         refuse(check_together(network, mesh, &topology, &incidence))?;
         let mut warnings = Vec::new();
         let targets = targets(network, mesh, &topology, &incidence, &mut warnings);
