@@ -21,11 +21,13 @@ mod sweep;
 mod tests;
 mod vase;
 mod write;
+mod yacht;
 
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use ogee::ControlMesh;
+use ogee::curve_network::CurveNetwork;
 
 /// A cage that is shipped, and what is promised about it.
 struct Model {
@@ -35,6 +37,15 @@ struct Model {
     about: &'static [&'static str],
     form: Form,
     mesh: ControlMesh,
+}
+
+/// A cage that is shipped with the curves that its surface is to contain.
+struct NetworkModel {
+    /// The name of the file, without extension.
+    name: &'static str,
+    form: Form,
+    mesh: ControlMesh,
+    network: CurveNetwork,
 }
 
 /// What kind of surface a model is.
@@ -65,6 +76,11 @@ fn all() -> Vec<Model> {
     ]
 }
 
+/// All models with curves, in the order of their names.
+fn networks() -> Vec<NetworkModel> {
+    vec![yacht::model()]
+}
+
 /// Where the shipped cages live.
 pub(crate) fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../models")
@@ -78,7 +94,14 @@ pub(crate) fn write_all(folder: &Path) -> Result<Vec<String>> {
         let path = folder.join(model.name).with_extension("obj");
         std::fs::write(&path, write::to_obj(&model)?)
             .with_context(|| format!("cannot write {}", path.display()))?;
-        lines.push(format!("{}: {}", model.name, write::counts(&model)));
+        lines.push(format!("{}: {}", model.name, write::counts(&model.mesh, &model.form)));
+    }
+    for model in networks() {
+        let path = folder.join(model.name).with_extension("json");
+        std::fs::write(&path, write::to_json(&model)?)
+            .with_context(|| format!("cannot write {}", path.display()))?;
+        let counts = write::counts(&model.mesh, &model.form);
+        lines.push(format!("{}: {counts}, {} curves", model.name, model.network.curves.len()));
     }
     Ok(lines)
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use ogee::mesh::check;
 use ogee::{ControlMesh, Topology, Valence, Vec3, VertexId};
 
-use super::{Form, Model, all, folder, write};
+use super::{Form, Model, all, folder, networks, write};
 
 /// Valences at inner vertices.
 fn valences(model: &Model) -> BTreeSet<u32> {
@@ -54,7 +54,37 @@ fn files_are_what_the_generator_writes() {
         let file = std::fs::read_to_string(&path).unwrap();
         assert!(file == write::to_obj(&model).unwrap(), "{}: run `cargo run -p xtask -- models`", model.name);
     }
-    assert_eq!(std::fs::read_dir(folder()).unwrap().count(), all().len(), "files that no model writes");
+    for model in networks() {
+        let path = folder().join(model.name).with_extension("json");
+        let file = std::fs::read_to_string(&path).unwrap();
+        assert!(
+            file == write::to_json(&model).unwrap(),
+            "{}: run `cargo run -p xtask -- models`",
+            model.name
+        );
+        let read = ogee_formats::network::read(file.as_bytes(), ogee_formats::network::NetworkFormat::Json);
+        assert_eq!(read.unwrap().network, model.network, "{}", model.name);
+    }
+    let files = std::fs::read_dir(folder()).unwrap().count();
+    assert_eq!(files, all().len() + networks().len(), "files that no model writes");
+}
+
+#[test]
+fn curves_of_models_lie_on_their_surfaces() {
+    for model in networks() {
+        let embedding = ogee::curve_network::embed(&model.network, &model.mesh).unwrap();
+        let figures = embedding.measure().unwrap();
+        let size = model.mesh.size();
+        assert!(figures.errors.iter().all(|&error| error < 1e-12 * size), "{}", model.name);
+        assert!(
+            figures.meetings.iter().all(|meeting| meeting.normal_spread_deg < Some(0.01)),
+            "{}",
+            model.name
+        );
+        // The lines are turned where they meet, by little.
+        let worst = embedding.warnings.iter().filter_map(|warning| warning.value()).fold(0.0, f64::max);
+        assert!(worst < 3.0, "{}: {:?}", model.name, embedding.warnings);
+    }
 }
 
 #[test]

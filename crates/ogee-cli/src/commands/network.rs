@@ -81,6 +81,9 @@ struct Laying {
     /// Turn a curve that goes through a meeting point until it has no kink there; the report says by how much
     #[arg(long)]
     straighten: bool,
+    /// Make what curves leave open at meeting points as long as the mesh reaches there: for quads much longer than wide
+    #[arg(long)]
+    fit_mesh: bool,
     /// Move all points that curves do not hold to where the surface bends least
     #[arg(long)]
     fair: bool,
@@ -324,6 +327,7 @@ impl Laying {
             repair: options.repair && !self.no_repair,
             flatten: options.flatten || self.flatten,
             straighten: options.straighten || self.straighten,
+            fit_mesh: options.fit_mesh || self.fit_mesh,
             fair: options.fair || self.fair,
         };
         Ok(network)
@@ -365,7 +369,10 @@ fn write_cage(
 ) -> io::Result<()> {
     match format {
         NetworkOutput::CageObj => network::write_obj(&embedding.mesh, paths, "made by ogee network", out),
-        _ => network::write_json(&embedding.mesh, paths, out),
+        _ => {
+            let network = CurveNetwork { curves: paths.to_vec(), ..CurveNetwork::default() };
+            network::write_json(&embedding.mesh, &network, out)
+        }
     }
 }
 

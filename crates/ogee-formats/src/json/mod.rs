@@ -15,6 +15,7 @@
 //! these; they are not for this reader.
 
 mod names;
+mod network;
 mod parse;
 mod read;
 mod write;

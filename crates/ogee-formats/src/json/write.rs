@@ -3,7 +3,7 @@
 use std::fmt::{self, Display};
 use std::io::{self, BufWriter, Write};
 
-use ogee::curve_network::NetworkCurve;
+use ogee::curve_network::CurveNetwork;
 use ogee::{ControlMesh, FaceVaryingRule, Sharpness};
 
 use super::names::{BOUNDARIES, CREASINGS, FACE_VARYING_RULES, name};
@@ -15,13 +15,13 @@ use crate::number::Shortest;
 /// # Errors
 /// If a number is not finite, which JSON cannot say; and those of `out`.
 pub fn write_cage(mesh: &ControlMesh, out: impl Write) -> io::Result<()> {
-    write_cage_with(mesh, &[], out)
+    write_cage_with(mesh, None, out)
 }
 
-/// The same with the curves that lie on the cage, where there are any.
+/// The same with the network of curves that lies on the cage.
 pub(crate) fn write_cage_with(
     mesh: &ControlMesh,
-    curves: &[NetworkCurve],
+    network: Option<&CurveNetwork>,
     out: impl Write,
 ) -> io::Result<()> {
     let uvs = mesh.uv.iter().flat_map(|uv| uv.values.iter().flatten());
@@ -30,8 +30,7 @@ pub(crate) fn write_cage_with(
     let sharpness = sharpness.chain(mesh.corners.iter().map(|corner| corner.sharpness));
     let is_number = |sharpness: Sharpness| !sharpness.value().is_nan();
     let shapes = mesh.meetings.iter().map(|meeting| meeting.t);
-    let control = curves.iter().filter_map(|curve| curve.control.as_ref()).flatten();
-    let points = points.chain(control.flat_map(|p| [p.x, p.y, p.z]));
+    let points = points.chain(network.into_iter().flat_map(super::network::numbers));
     if !points.chain(uvs.copied()).chain(shapes).all(f64::is_finite) || !sharpness.into_iter().all(is_number)
     {
         return Err(io::Error::new(
@@ -74,9 +73,8 @@ pub(crate) fn write_cage_with(
             }),
         )?;
     }
-    if !curves.is_empty() {
-        write!(out, ",\n\"curves\": ")?;
-        list(&mut out, curves.iter().map(Curve))?;
+    if let Some(network) = network {
+        super::network::write(network, &mut out)?;
     }
     if let Some(uv) = &mesh.uv {
         let faces = mesh.faces.starts().windows(2).map(|ends| {
@@ -121,7 +119,7 @@ fn write_texture<'a>(
 }
 
 /// Writes items, each on a line.
-fn list(out: &mut impl Write, items: impl Iterator<Item = impl Display>) -> io::Result<()> {
+pub(super) fn list(out: &mut impl Write, items: impl Iterator<Item = impl Display>) -> io::Result<()> {
     write!(out, "[")?;
     let mut is_first = true;
     for item in items {
@@ -132,7 +130,7 @@ fn list(out: &mut impl Write, items: impl Iterator<Item = impl Display>) -> io::
 }
 
 /// Displays a list of numbers.
-struct Numbers<const N: usize>([f64; N]);
+pub(super) struct Numbers<const N: usize>(pub(super) [f64; N]);
 
 impl<const N: usize> Display for Numbers<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -143,28 +141,8 @@ impl<const N: usize> Display for Numbers<N> {
     }
 }
 
-/// Displays a curve.
-struct Curve<'a>(&'a NetworkCurve);
-
-impl Display for Curve<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let NetworkCurve { name, vertices, closed, control, .. } = self.0;
-        // As JSON spells it, with its quotes.
-        let name = serde_json::Value::from(name.as_str());
-        write!(f, "{{\"name\":{name},\"vertices\":{},\"closed\":{closed}", Indices(vertices))?;
-        if let Some(control) = control {
-            f.write_str(",\"control\":[")?;
-            for (i, p) in control.iter().enumerate() {
-                write!(f, "{}{}", if i == 0 { "" } else { "," }, Numbers([p.x, p.y, p.z]))?;
-            }
-            f.write_str("]")?;
-        }
-        f.write_str("}")
-    }
-}
-
 /// Displays a list of indices.
-struct Indices<'a>(&'a [u32]);
+pub(super) struct Indices<'a>(pub(super) &'a [u32]);
 
 impl Display for Indices<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

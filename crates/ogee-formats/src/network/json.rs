@@ -71,6 +71,7 @@ struct RawOptions {
     repair: Option<bool>,
     flatten: Option<bool>,
     straighten: Option<bool>,
+    fit_mesh: Option<bool>,
     fair: Option<bool>,
 }
 
@@ -83,6 +84,7 @@ struct RawMeeting {
     crown: Option<f64>,
     flatten: Option<bool>,
     straighten: Option<bool>,
+    fit_mesh: Option<bool>,
 }
 
 #[derive(Deserialize)]
@@ -216,6 +218,7 @@ fn options(raw: &RawOptions) -> Result<NetworkOptions, Fault> {
         repair: raw.repair.unwrap_or(usual.repair),
         flatten: raw.flatten.unwrap_or(usual.flatten),
         straighten: raw.straighten.unwrap_or(usual.straighten),
+        fit_mesh: raw.fit_mesh.unwrap_or(usual.fit_mesh),
         fair: raw.fair.unwrap_or(usual.fair),
     })
 }
@@ -228,6 +231,7 @@ fn meeting(raw: &RawMeeting) -> MeetingOptions {
         crown: raw.crown.unwrap_or(0.0),
         flatten: raw.flatten,
         straighten: raw.straighten,
+        fit_mesh: raw.fit_mesh,
     }
 }
 

@@ -3,7 +3,7 @@
 use std::io::{self, BufWriter, Write};
 
 use ogee::ControlMesh;
-use ogee::curve_network::NetworkCurve;
+use ogee::curve_network::{CurveNetwork, NetworkCurve};
 
 use crate::number::Shortest;
 use crate::{json, obj};
@@ -39,10 +39,10 @@ pub fn write_obj(
     out.flush()
 }
 
-/// Writes a cage in JSON with its curves under `curves`.
+/// Writes a cage in JSON with its network: curves, options, choices for meeting points, points. What is usual is left out.
 ///
 /// # Errors
 /// If a number is not finite, which JSON cannot say; and those of `out`.
-pub fn write_json(mesh: &ControlMesh, curves: &[NetworkCurve], out: impl Write) -> io::Result<()> {
-    json::write_cage_with(mesh, curves, out)
+pub fn write_json(mesh: &ControlMesh, network: &CurveNetwork, out: impl Write) -> io::Result<()> {
+    json::write_cage_with(mesh, Some(network), out)
 }

@@ -23,7 +23,9 @@ pub(super) fn check_curves(
     for curve in &network.curves {
         check_path(curve, mesh, topology, &mut defects);
         check_control(curve, &mut defects);
+        check_wants(curve, &mut defects);
     }
+    check_points(network, mesh, &mut defects);
     let options = &network.options;
     let parameters = network.meetings.iter().map(|(vertex, own)| (Some(vertex), own.parameter));
     for (vertex, parameter) in parameters.chain([(None, options.parameter)]) {
@@ -80,6 +82,56 @@ fn check_control(curve: &NetworkCurve, defects: &mut Vec<NetworkDefect>) {
         } else if let Some(index) = points.iter().position(|p| !p.is_finite()) {
             defects.push(NetworkDefect::TargetNotFinite { curve: name(), index });
         }
+    }
+}
+
+/// Normals and cross curvatures: one per vertex or none, finite, with a direction.
+fn check_wants(curve: &NetworkCurve, defects: &mut Vec<NetworkDefect>) {
+    let vertices = curve.vertices.len();
+    let lengths = [("normals", curve.normals.len()), ("cross curvatures", curve.cross_curvatures.len())];
+    for (what, given) in lengths {
+        if given != 0 && given != vertices {
+            let curve = curve.name.clone();
+            defects.push(NetworkDefect::ConstraintLength { curve, what, given, vertices });
+        }
+    }
+    for (&vertex, normal) in curve.vertices.iter().zip(&curve.normals) {
+        if normal.is_some_and(|normal| !has_direction(normal)) {
+            defects.push(NetworkDefect::ConstraintNotFinite { what: "a normal", vertex });
+        }
+    }
+    for (&vertex, curvature) in curve.vertices.iter().zip(&curve.cross_curvatures) {
+        if curvature.is_some_and(|curvature| !curvature.is_finite()) {
+            defects.push(NetworkDefect::ConstraintNotFinite { what: "a cross curvature", vertex });
+        }
+    }
+}
+
+fn has_direction(normal: Vec3) -> bool {
+    normal.is_finite() && normal.normalized().is_some()
+}
+
+/// Points that are wanted: at vertices of the cage, finite, and only where fairing gives them.
+fn check_points(network: &CurveNetwork, mesh: &ControlMesh, defects: &mut Vec<NetworkDefect>) {
+    let count = mesh.points.len();
+    if let Some(first) = network.points.first().filter(|_| !network.options.fair) {
+        defects.push(NetworkDefect::PointsWithoutFairing { vertex: first.vertex });
+    }
+    for point in &network.points {
+        let vertex = point.vertex;
+        if vertex as usize >= count {
+            defects.push(NetworkDefect::PointVertex { vertex, count });
+        }
+        if point.position.is_some_and(|position| !position.is_finite()) {
+            defects.push(NetworkDefect::ConstraintNotFinite { what: "a point", vertex });
+        }
+        if point.normal.is_some_and(|normal| !has_direction(normal)) {
+            defects.push(NetworkDefect::ConstraintNotFinite { what: "a normal", vertex });
+        }
+    }
+    let normals = network.meetings.iter().filter_map(|(&vertex, own)| Some((vertex, own.normal?)));
+    for (vertex, _) in normals.filter(|(_, normal)| !has_direction(*normal)) {
+        defects.push(NetworkDefect::ConstraintNotFinite { what: "a normal", vertex });
     }
 }
 

@@ -7,6 +7,7 @@ use super::place::{Placement, Site, place};
 use super::plan::{MeetingVertex, NetworkPlan, Segment, SegmentEnd, ring_normal};
 use super::repair::{MeetingPorts, Repaired, Ribbons, TaggedPath, repair};
 use super::tangent_plane::TangentPlane;
+use super::wants::{shape_rows, tell_missed};
 use super::warning::NetworkWarning;
 use crate::math::Vec3;
 use crate::mesh::{ControlMesh, Meeting, Topology, VertexId};
@@ -66,22 +67,24 @@ pub fn embed(network: &CurveNetwork, mesh: &ControlMesh) -> Result<Embedding, Ne
     loop {
         let result = embed_split(network, &plan, mesh);
         let crowded = match &result {
-            Ok(embedding) => embedding.warnings.iter().any(|warning| warning.code() == "W_X_OVERLAP"),
+            Ok((embedding, crowded)) => {
+                *crowded || embedding.warnings.iter().any(|warning| warning.code() == "W_X_OVERLAP")
+            }
             Err(error) => error.code() == "E_REPAIR",
         };
         if !crowded || plan.pre_split >= most {
-            return result;
+            return result.map(|(embedding, _)| embedding);
         }
         plan.pre_split += 1;
     }
 }
 
-/// The same with the plan's number of splits.
+/// The same with the plan's number of splits; and whether something that is wanted along a curve has no room.
 fn embed_split(
     network: &CurveNetwork,
     plan: &NetworkPlan,
     mesh: &ControlMesh,
-) -> Result<Embedding, NetworkError> {
+) -> Result<(Embedding, bool), NetworkError> {
     let (cage, mut split) = plan.split(mesh)?;
     let topology = Topology::new(&cage).map_err(|error| NetworkError {
         defects: error.defects.into_iter().map(NetworkDefect::Mesh).collect(),
@@ -117,8 +120,12 @@ fn embed_split(
         // The first port is that of the first curve, as in the site.
         let first = ring.iter().position(|&spoke| spoke == neighbour(&split, meeting.arrivals[0]));
         ring.rotate_left(first.unwrap_or(0));
+        let at = room.points[meeting.vertex as usize];
+        // After repair: its new vertices are where there is room.
+        let spokes = ring.iter().map(|&spoke| room.points[spoke as usize] - at).collect();
+        let site = Site { spokes, ..site.clone() };
         let fits = |placement: &Placement| placement.ring.ring.len() == ring.len();
-        let placement = place(site).filter(fits).ok_or_else(|| NetworkError {
+        let placement = place(&site).filter(fits).ok_or_else(|| NetworkError {
             defects: vec![NetworkDefect::Repair { vertex: meeting.vertex }],
         })?;
         let (segment, end) = meeting.arrivals[0];
@@ -130,11 +137,18 @@ fn embed_split(
         x_configurations.push(XConfiguration { center, ring, parameter: placement.parameter });
         warnings.extend(placement.warnings);
     }
+    move_border(&mut room.points, &split);
+    let decided = x_vertices(&topology, &x_configurations);
+    let missed = shape_rows(&mut room.points, network, &split, &sides, &decided, &mut warnings);
     move_paths(&mut room.points, &split, &sides);
     room.meetings = x_configurations.iter().map(XConfiguration::meeting).collect();
+    warnings.extend(tell_missed(&missed, network, &split.segments, &room));
+    let crowded = missed.iter().any(|missed| missed.crowded);
     let (segments, splits) = (split.segments, plan.pre_split);
     let inserted_vertices = room.points.len() - cage.points.len();
-    Ok(Embedding { mesh: room, segments, sides, x_configurations, splits, inserted_vertices, warnings })
+    let embedding =
+        Embedding { mesh: room, segments, sides, x_configurations, splits, inserted_vertices, warnings };
+    Ok((embedding, crowded))
 }
 
 fn path(segment: &Segment) -> TaggedPath {
@@ -167,6 +181,16 @@ fn neighbour(plan: &NetworkPlan, (segment, end): (usize, SegmentEnd)) -> u32 {
     }
 }
 
+/// The vertices of all X-configurations: centres, rings and corners. One that two of them share is there twice.
+fn x_vertices(topology: &Topology, x_configurations: &[XConfiguration]) -> Vec<u32> {
+    let around = |x: &XConfiguration| {
+        let slices = topology.ring(VertexId(x.center));
+        let corners = slices.map(|h| topology.target(topology.next(h)).0);
+        [x.center].into_iter().chain(x.ring.iter().copied()).chain(corners).collect::<Vec<u32>>()
+    };
+    x_configurations.iter().flat_map(around).collect()
+}
+
 /// Puts free spokes, corners and dummy ports of an X-configuration in their places, and ports for a start.
 fn put(points: &mut [Vec3], topology: &Topology, center: u32, ring: &[u32], placement: &Placement) {
     let at = points[center as usize];
@@ -181,20 +205,25 @@ fn put(points: &mut [Vec3], topology: &Topology, center: u32, ring: &[u32], plac
     }
 }
 
-/// Gives every path its curve: along the border first, then all others, then where two of them cross.
-fn move_paths(points: &mut [Vec3], plan: &NetworkPlan, sides: &[Vec<[u32; 2]>]) {
+/// Puts the vertices of curves along the border on their control points.
+fn move_border(points: &mut [Vec3], plan: &NetworkPlan) {
     for segment in plan.segments.iter().filter(|segment| segment.along_border) {
         for (&v, &point) in segment.vertices.iter().zip(segment.target.control()) {
             points[v as usize] = point;
         }
     }
+}
+
+/// Gives every path inside its curve, where two of them cross last.
+fn move_paths(points: &mut [Vec3], plan: &NetworkPlan, sides: &[Vec<[u32; 2]>]) {
     for crossings in [false, true] {
         for (segment, sides) in plan.segments.iter().zip(sides).filter(|(segment, _)| !segment.along_border) {
             let last = segment.vertices.len() - 1;
             let control = segment.target.control();
             for (i, (&v, &[left, right])) in segment.vertices.iter().zip(sides).enumerate() {
                 let at_meeting = (i == 0 && segment.meets[0]) || (i == last && segment.meets[1]);
-                if !at_meeting && plan.smooth_crossings.contains(&v) == crossings {
+                let crosses = plan.smooth_crossings.binary_search(&v).is_ok();
+                if !at_meeting && crosses == crossings {
                     points[v as usize] =
                         reposition(control[i], points[left as usize], points[right as usize]);
                 }

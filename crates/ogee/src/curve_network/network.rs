@@ -64,6 +64,9 @@ pub struct NetworkOptions {
     /// Turn the first legs of a curve that goes through a meeting point until they are opposite, so that it is smooth there.
     /// This changes the curve; warnings say by how much.
     pub straighten: bool,
+    /// Make what curves leave open at a meeting point, dummy ports and the free direction at two ports, as long as the mesh
+    /// reaches there, and not as long as the curves' legs: for cages with quads much longer than wide.
+    pub fit_mesh: bool,
     /// Move all points that the network does not hold to where the surface between the curves bends least: of all that go
     /// through the network's [points](CurveNetwork::points).
     pub fair: bool,
@@ -81,6 +84,7 @@ impl Default for NetworkOptions {
             repair: true,
             flatten: false,
             straighten: false,
+            fit_mesh: false,
             fair: false,
         }
     }
@@ -151,6 +155,8 @@ pub struct MeetingOptions {
     /// Make the legs of a curve that goes through opposite: [`NetworkOptions::straighten`]; `None` as in the rest of the
     /// network.
     pub straighten: Option<bool>,
+    /// Lengths as those of the mesh: [`NetworkOptions::fit_mesh`]; `None` as in the rest of the network.
+    pub fit_mesh: Option<bool>,
 }
 
 /// What the surface is to do where a vertex of the cage ends up.
@@ -173,6 +179,7 @@ impl CurveNetwork {
             parameter: own.parameter.or(self.options.parameter),
             flatten: own.flatten.or(Some(self.options.flatten)),
             straighten: own.straighten.or(Some(self.options.straighten)),
+            fit_mesh: own.fit_mesh.or(Some(self.options.fit_mesh)),
             ..own
         }
     }

@@ -40,6 +40,9 @@ pub struct Site {
     pub arrivals: Vec<Arrival>,
     /// Normal of the mesh there; need not be a unit vector.
     pub ring_normal: Vec3,
+    /// The neighbours in the mesh relative to the vertex, counter-clockwise; only for
+    /// [`NetworkOptions::fit_mesh`](super::NetworkOptions::fit_mesh), and may be left out without it.
+    pub spokes: Vec<Vec3>,
     /// What the user wants; what is `None` has its default.
     pub options: MeetingOptions,
 }
@@ -71,12 +74,24 @@ pub fn place(site: &Site) -> Option<Placement> {
     let tangents: Vec<Vec3> = site.arrivals.iter().map(|arrival| arrival.tangent).collect();
     let options = &site.options;
     let plane = TangentPlane::new(&tangents, site.ring_normal, options.normal)?;
-    let (tangents, ports): (Vec<Vec3>, Vec<Option<usize>>) = plane.ports(&tangents).into_iter().unzip();
+    let (mut tangents, ports): (Vec<Vec3>, Vec<Option<usize>>) = plane.ports(&tangents).into_iter().unzip();
+    let mut aside = plane.normal;
+    if options.fit_mesh == Some(true) {
+        let reach = |direction| reach(&site.spokes, plane.normal, direction);
+        for (tangent, _) in tangents.iter_mut().zip(&ports).filter(|(_, port)| port.is_none()) {
+            *tangent = reach(*tangent).unwrap_or(1.0) * *tangent;
+        }
+        if let [first, second] = tangents[..] {
+            let free = plane.normal.cross(first - second) / 2.0;
+            let both = reach(free).zip(reach(-free)).map_or(1.0, |(one, other)| (one + other) / 2.0);
+            aside = both * aside;
+        }
+    }
     let (parameter, least_turn) = choose_parameter(&tangents, plane.normal, options.parameter);
     let mut ring = match options.placing.unwrap_or_default() {
-        Placing::Eigen | Placing::Keep => XRing::eigen(&tangents, parameter, plane.normal),
+        Placing::Eigen | Placing::Keep => XRing::eigen(&tangents, parameter, aside),
         Placing::Parallelogram => XRing::parallelogram(&tangents, 1.0, plane.normal),
-        Placing::Symmetric => XRing::symmetric(&tangents, parameter, plane.normal),
+        Placing::Symmetric => XRing::symmetric(&tangents, parameter, aside),
     };
     let mut warnings = warnings(site, &plane, parameter, ports.len(), least_turn);
     let longest = tangents.iter().fold(0.0_f64, |longest, tangent| longest.max(tangent.length()));
@@ -86,6 +101,17 @@ pub fn place(site: &Site) -> Option<Placement> {
     }
     ring.crown(options.crown * plane.normal);
     Some(Placement { ring, parameter, normal: plane.normal, ports, least_turn, warnings })
+}
+
+/// How far the polygon of the neighbours reaches in a direction, seen along the normal: times the direction's length. `None` if
+/// they do not surround the point.
+fn reach(spokes: &[Vec3], normal: Vec3, direction: Vec3) -> Option<f64> {
+    let aside = normal.cross(direction);
+    let flat: Vec<[f64; 2]> = spokes.iter().map(|spoke| [spoke.dot(direction), spoke.dot(aside)]).collect();
+    let next = flat.iter().cycle().skip(1);
+    let crossings = flat.iter().zip(next).filter(|([_, before], [_, after])| *before <= 0.0 && *after > 0.0);
+    let distances = crossings.map(|([x, y], [to_x, to_y])| x + (to_x - x) * y / (y - to_y));
+    distances.filter(|&x| x > 0.0).map(|x| x / direction.dot(direction)).reduce(f64::max)
 }
 
 /// The parameter and its smallest sine.
@@ -157,7 +183,7 @@ mod tests {
             .enumerate()
             .map(|(j, tangent)| Arrival { tangent, curve: format!("c{j}") })
             .collect();
-        Site { vertex: 7, arrivals, ring_normal: UP, options: MeetingOptions::default() }
+        Site { vertex: 7, arrivals, ring_normal: UP, spokes: Vec::new(), options: MeetingOptions::default() }
     }
 
     fn codes(placement: &Placement) -> Vec<&'static str> {
@@ -208,6 +234,33 @@ mod tests {
             assert!(placement.ring.free_spoke(j).distance(flat.ring.free_spoke(j) + 0.5 * UP) < 1e-15);
             assert_eq!(placement.ring.port(j), flat.ring.port(j));
         }
+    }
+
+    #[test]
+    fn what_curves_leave_open_reaches_as_far_as_the_mesh() {
+        // A grid four times as long as wide; a curve that ends, one that goes on in another, and a T.
+        let spokes = [(4.0, 0.0), (0.0, 1.0), (-4.0, 0.0), (0.0, -1.0)].map(|(x, y)| Vec3::new(x, y, 0.3));
+        let lie = |tangents: &[Vec3], fit: bool| {
+            let mut site = site(tangents.iter().copied());
+            site.spokes = spokes.to_vec();
+            site.options.fit_mesh = Some(fit);
+            place(&site).unwrap()
+        };
+        let x = Vec3::new(4.0, 0.0, 0.0);
+        for tangents in [&[x][..], &[x, -x]] {
+            let [long, fit] = [false, true].map(|fit| lie(tangents, fit));
+            assert!((long.ring.free_spoke(0).length() - 4.0).abs() < 1e-14);
+            assert!((fit.ring.free_spoke(0).length() - 1.0).abs() < 1e-14);
+            assert!(fit.ring.port(1).distance(-x) < 1e-14);
+        }
+        let t = lie(&[x, -x, Vec3::new(0.0, -1.0, 0.0)], true);
+        assert_eq!(t.ports, [Some(0), None, Some(1), Some(2)]);
+        assert!(t.ring.port(1).distance(Vec3::new(0.0, 1.0, 0.0)) < 1e-14);
+        // Neighbours on one side only: lengths stay those of the curves.
+        let mut half = site([x]);
+        half.spokes = spokes[..2].to_vec();
+        half.options.fit_mesh = Some(true);
+        assert_eq!(place(&half).unwrap().ring.free_spoke(0).length(), 4.0);
     }
 
     /// Directions with gaps of at least 15 degrees, lengths from 1 to 5.

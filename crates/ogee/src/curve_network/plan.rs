@@ -15,6 +15,9 @@ use crate::mesh::{ControlMesh, Topology, VertexId};
 /// A curve is moved onto the border curve it starts on without a warning below this distance, of the size of the mesh.
 const SAME_POINT: f64 = 1e-9;
 
+/// The sine of an angle that is none.
+const STRAIGHT: f64 = 1e-9;
+
 /// A piece of a curve between meeting points, or a whole one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Segment {
@@ -133,8 +136,33 @@ impl NetworkPlan {
             let segment = &self.segments[segment];
             Arrival { tangent: segment.leg(end), curve: network.curves[segment.curve].name.clone() }
         });
-        let options = network.meeting(meeting.vertex);
-        Site { vertex: meeting.vertex, arrivals: arrivals.collect(), ring_normal, options }
+        let mut options = network.meeting(meeting.vertex);
+        if options.normal.is_none() {
+            options.normal = self.wanted_normal(network, meeting);
+        }
+        let arrivals = arrivals.collect();
+        Site { vertex: meeting.vertex, arrivals, ring_normal, spokes: Vec::new(), options }
+    }
+}
+
+impl NetworkPlan {
+    /// The normal that a curve wants where it ends alone, or goes straight through: there its direction leaves a choice.
+    fn wanted_normal(&self, network: &CurveNetwork, meeting: &MeetingVertex) -> Option<Vec3> {
+        let legs: Vec<Vec3> = meeting
+            .arrivals
+            .iter()
+            .map(|&(segment, end)| self.segments[segment].leg(end).normalized())
+            .collect::<Option<_>>()?;
+        let along = *legs.first()?;
+        if legs.len() > 2 || legs.iter().any(|leg| leg.cross(along).length() > STRAIGHT) {
+            return None;
+        }
+        let wanted = meeting.arrivals.iter().find_map(|&(segment, _)| {
+            let curve = &network.curves[self.segments[segment].curve];
+            let at = curve.vertices.iter().position(|&v| v == meeting.vertex)?;
+            curve.normals.get(at).copied().flatten()
+        })?;
+        (wanted - along.dot(wanted) * along).normalized()
     }
 }
 

@@ -55,7 +55,7 @@ impl XRing {
     /// `tangents` are the first legs `T_j` of the curves' control polygons, counter-clockwise, two or more; `0 < t <= 1/2`.
     /// With three ports or more, `t = 1/2` gives a surface without tangent plane in general. Two ports need `t = 1/2`;
     /// there the free spokes are the mean of the tangents and, on either side, half of their difference turned by 90
-    /// degrees about the unit `normal`, which is not used otherwise.
+    /// degrees about `normal` and scaled by its length, usually 1; it is not used otherwise.
     pub fn eigen(tangents: &[Vec3], t: f64, normal: Vec3) -> XRing {
         let count = tangents.len();
         let kernel = free_spoke_kernel(count, t);

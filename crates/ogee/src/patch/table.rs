@@ -8,7 +8,7 @@ use super::tree::{Node, Piece, Tail};
 use super::users::Users;
 use super::{Location, LocationError, ParametricFace, build};
 use crate::math::{Vec3, simd};
-use crate::mesh::FaceId;
+use crate::mesh::{FaceId, Topology, VertexId};
 use crate::rules::Level;
 use crate::stencil::StencilTable;
 
@@ -169,6 +169,21 @@ impl PatchTable {
             return Err(LocationError::HiddenFace { face });
         }
         Ok(location)
+    }
+
+    /// The corner of some visible face at a vertex of the level that this table was made of; `None` if it has none.
+    pub(crate) fn locate_vertex(&self, topology: &Topology, v: VertexId) -> Option<Location> {
+        topology.ring(v).find_map(|h| {
+            let face = topology.face(h);
+            let corner = h.0 - topology.first(face).0;
+            let at = if topology.face_size(face) == 4 {
+                let [u, v] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]][corner as usize];
+                self.locate(face, None, u, v)
+            } else {
+                self.locate(face, Some(corner), 0.0, 0.0)
+            };
+            at.ok()
+        })
     }
 
     /// How many pieces there are, and what they cost.
