@@ -6,7 +6,7 @@ mod golden;
 mod networks;
 
 use golden::{faces, index, list, number, points};
-use networks::{along, cases, curves};
+use networks::{along, any_network, cases, curves, mesh, walks};
 use ogee::curve_network::{
     Crossing, CurveNetwork, Embedding, NetworkCurve, Placing, PreSplit, XMatrix, XRing, control_point, embed,
 };
@@ -165,84 +165,6 @@ fn golden_networks_are_embedded() {
         }
     }
     assert!(same_mesh >= 6, "{same_mesh}");
-}
-
-fn octahedron() -> ControlMesh {
-    let points = [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]];
-    let points = points.map(|p| Vec3::from(p.map(f64::from))).to_vec();
-    let faces = (0..4).flat_map(|i| [[i, (i + 1) % 4, 4], [(i + 1) % 4, i, 5]]);
-    ControlMesh::new(points, faces.collect())
-}
-
-/// A prism over a pentagon with one side cut off by triangles: polygons of three, four and five corners.
-fn prism() -> ControlMesh {
-    let turn = |i: u32| f64::from(i) * std::f64::consts::TAU / 5.0;
-    let ring = |z: f64| (0..5).map(move |i| Vec3::new(turn(i).cos(), turn(i).sin(), z));
-    let mut points: Vec<Vec3> = ring(0.0).chain(ring(1.0)).collect();
-    points.push(Vec3::new(0.0, 0.0, 1.6));
-    let mut faces = FaceList::new();
-    faces.push(&[4, 3, 2, 1, 0]);
-    for i in 0..5 {
-        let j = (i + 1) % 5;
-        faces.push(&[i, j, 5 + j, 5 + i]);
-        faces.push(&[5 + i, 5 + j, 10]);
-    }
-    ControlMesh::new(points, faces)
-}
-
-fn mesh(kind: usize) -> ControlMesh {
-    match kind {
-        0 => shapes::cube(),
-        1 => octahedron(),
-        2 => shapes::grid(4, 4),
-        3 => shapes::torus(5, 4),
-        4 => shapes::disk(5, 2),
-        5 => shapes::disk(3, 2),
-        _ => prism(),
-    }
-}
-
-/// Paths that never use a vertex or an edge of their own twice, nor an edge of another: each step takes the first free
-/// neighbour from a random one on. Inside they may meet; a border vertex ends them.
-fn walks(mesh: &ControlMesh, seeds: &[Vec<usize>]) -> Vec<NetworkCurve> {
-    let topology = Topology::new(mesh).unwrap();
-    let mut used = BTreeSet::new();
-    let mut ends = BTreeSet::new();
-    let mut curves = Vec::new();
-    for (number, seed) in seeds.iter().enumerate() {
-        let mut path = vec![(seed[0] % topology.vertex_count()) as u32];
-        for &choice in &seed[1..] {
-            let v = VertexId(path[path.len() - 1]);
-            if topology.is_boundary(v) && path.len() > 1 {
-                break;
-            }
-            let ring: Vec<_> = topology.ring(v).collect();
-            let taken = |v: VertexId| topology.is_boundary(v) && ends.contains(&v);
-            let free = (0..ring.len()).map(|k| ring[(choice + k) % ring.len()]).find(|&h| {
-                let (to, edge) = (topology.target(h), topology.edge(h));
-                let blocked = taken(v) || taken(to) || used.contains(&edge) || path.contains(&to.0);
-                topology.twin(h).is_some() && !blocked
-            });
-            let Some(h) = free else { break };
-            used.insert(topology.edge(h));
-            path.push(topology.target(h).0);
-        }
-        let tips = [path[0], path[path.len() - 1]].map(VertexId);
-        if path.len() > 1 {
-            ends.extend(tips);
-            curves.push(NetworkCurve {
-                name: format!("c{number}"),
-                vertices: path,
-                ..NetworkCurve::default()
-            });
-        }
-    }
-    curves
-}
-
-fn any_network() -> impl Strategy<Value = (usize, Vec<Vec<usize>>, bool)> {
-    let seeds = prop::collection::vec(prop::collection::vec(0usize..1000, 2..7), 1..4);
-    (0usize..7, seeds, prop::bool::weighted(0.2))
 }
 
 proptest! {

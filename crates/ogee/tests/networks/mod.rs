@@ -5,9 +5,12 @@
 use super::golden::{documents, faces, index, list, number, points};
 use ogee::curve_network::NetworkCurve;
 use ogee::{
-    Boundary, ControlMesh, Corner, HalfedgeId, Level, Location, Meeting, PatchTable, Sharpness, VertexId,
+    Boundary, ControlMesh, Corner, FaceList, HalfedgeId, Level, Location, Meeting, PatchTable, Sharpness,
+    Topology, Vec3, VertexId, shapes,
 };
+use proptest::prelude::*;
 use serde_json::Value;
+use std::collections::BTreeSet;
 
 /// The documents that have a mesh and its preparation.
 pub fn cases() -> Vec<(String, Value)> {
@@ -58,4 +61,84 @@ pub fn along(level: &Level, table: &PatchTable, [a, b]: [u32; 2], t: f64) -> Loc
         _ => (0.0, 1.0 - t),
     };
     table.locate(face, None, u, v).unwrap()
+}
+
+fn octahedron() -> ControlMesh {
+    let points = [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]];
+    let points = points.map(|p| Vec3::from(p.map(f64::from))).to_vec();
+    let faces = (0..4).flat_map(|i| [[i, (i + 1) % 4, 4], [(i + 1) % 4, i, 5]]);
+    ControlMesh::new(points, faces.collect())
+}
+
+/// A prism over a pentagon with one side cut off by triangles: polygons of three, four and five corners.
+fn prism() -> ControlMesh {
+    let turn = |i: u32| f64::from(i) * std::f64::consts::TAU / 5.0;
+    let ring = |z: f64| (0..5).map(move |i| Vec3::new(turn(i).cos(), turn(i).sin(), z));
+    let mut points: Vec<Vec3> = ring(0.0).chain(ring(1.0)).collect();
+    points.push(Vec3::new(0.0, 0.0, 1.6));
+    let mut faces = FaceList::new();
+    faces.push(&[4, 3, 2, 1, 0]);
+    for i in 0..5 {
+        let j = (i + 1) % 5;
+        faces.push(&[i, j, 5 + j, 5 + i]);
+        faces.push(&[5 + i, 5 + j, 10]);
+    }
+    ControlMesh::new(points, faces)
+}
+
+/// Seven cages.
+pub fn mesh(kind: usize) -> ControlMesh {
+    match kind {
+        0 => shapes::cube(),
+        1 => octahedron(),
+        2 => shapes::grid(4, 4),
+        3 => shapes::torus(5, 4),
+        4 => shapes::disk(5, 2),
+        5 => shapes::disk(3, 2),
+        _ => prism(),
+    }
+}
+
+/// Paths that never use a vertex or an edge of their own twice, nor an edge of another: each step takes the first free
+/// neighbour from a random one on. Inside they may meet; a border vertex ends them.
+pub fn walks(mesh: &ControlMesh, seeds: &[Vec<usize>]) -> Vec<NetworkCurve> {
+    let topology = Topology::new(mesh).unwrap();
+    let mut used = BTreeSet::new();
+    let mut ends = BTreeSet::new();
+    let mut curves = Vec::new();
+    for (number, seed) in seeds.iter().enumerate() {
+        let mut path = vec![(seed[0] % topology.vertex_count()) as u32];
+        for &choice in &seed[1..] {
+            let v = VertexId(path[path.len() - 1]);
+            if topology.is_boundary(v) && path.len() > 1 {
+                break;
+            }
+            let ring: Vec<_> = topology.ring(v).collect();
+            let taken = |v: VertexId| topology.is_boundary(v) && ends.contains(&v);
+            let free = (0..ring.len()).map(|k| ring[(choice + k) % ring.len()]).find(|&h| {
+                let (to, edge) = (topology.target(h), topology.edge(h));
+                let blocked = taken(v) || taken(to) || used.contains(&edge) || path.contains(&to.0);
+                topology.twin(h).is_some() && !blocked
+            });
+            let Some(h) = free else { break };
+            used.insert(topology.edge(h));
+            path.push(topology.target(h).0);
+        }
+        let tips = [path[0], path[path.len() - 1]].map(VertexId);
+        if path.len() > 1 {
+            ends.extend(tips);
+            curves.push(NetworkCurve {
+                name: format!("c{number}"),
+                vertices: path,
+                ..NetworkCurve::default()
+            });
+        }
+    }
+    curves
+}
+
+/// The number of a cage, random choices for paths on it, and whether ribbons are forced.
+pub fn any_network() -> impl Strategy<Value = (usize, Vec<Vec<usize>>, bool)> {
+    let seeds = prop::collection::vec(prop::collection::vec(0usize..1000, 2..7), 1..4);
+    (0usize..7, seeds, prop::bool::weighted(0.2))
 }
