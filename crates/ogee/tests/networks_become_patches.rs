@@ -236,24 +236,48 @@ fn what_cannot_be_converted_is_refused_by_name() {
     assert_eq!((report.level, report.solids), (2, 0));
 }
 
+/// A star as the lid of a closed box; its bottom has no meeting.
+fn lid(seed: u64) -> ControlMesh {
+    let mut mesh = star(seed);
+    let count = mesh.points.len() as u32;
+    let top: Vec<Vec<u32>> = mesh.faces.iter().map(<[u32]>::to_vec).collect();
+    let below = mesh.points.iter().map(|p| Vec3::new(p.x, p.y, 0.3 * p.z - 4.0)).collect::<Vec<_>>();
+    mesh.points.extend(below);
+    let edges: Vec<[u32; 2]> = top
+        .iter()
+        .flat_map(|face| (0..face.len()).map(move |k| [face[k], face[(k + 1) % face.len()]]))
+        .collect();
+    for &[a, b] in edges.iter().filter(|&&[a, b]| !edges.contains(&[b, a])) {
+        mesh.faces.push(&[b, a, a + count, b + count]);
+    }
+    for face in &top {
+        mesh.faces.push(&face.iter().rev().map(|v| v + count).collect::<Vec<_>>());
+    }
+    mesh
+}
+
 #[test]
-fn cages_for_other_programs() {
+fn closed_cages_become_solids() {
+    for seed in 0..10 {
+        let mesh = lid(seed);
+        for method in METHODS {
+            let volumes = [Packing::Packed, Packing::Unpacked].map(|packing| {
+                let part = to_part(&mesh, &Options { method, packing, ..Options::default() }).unwrap();
+                check(&format!("lid {seed} {method:?} {packing:?}"), &mesh, &part, &[]);
+                let report = &part.report;
+                assert_eq!((report.solids, report.shells, report.closed, report.sharp_edges), (1, 1, true, 0));
+                report.volume.unwrap()
+            });
+            assert!((volumes[0] - volumes[1]).abs() < 1e-12 * volumes[0]);
+        }
+    }
     if let Some(folder) = std::env::var_os("CAGES") {
-        let write = |name: &str, mesh: &ControlMesh| {
+        for (name, mesh) in [("closed.json", &lid(1)), ("open.json", &star(2))] {
             let points: Vec<[f64; 3]> = mesh.points.iter().map(|&p| p.into()).collect();
             let faces: Vec<&[u32]> = mesh.faces.iter().collect();
             let meetings: Vec<serde_json::Value> = mesh.meetings.iter().map(|m| serde_json::json!({"vertex": m.vertex, "ports": m.ports, "t": m.t})).collect();
             let text = serde_json::json!({"vertices": points, "faces": faces, "meetings": meetings}).to_string();
             std::fs::write(std::path::Path::new(&folder).join(name), text).unwrap();
-        };
-        let path = |vertices: &[u32]| ogee::curve_network::NetworkCurve { name: format!("{vertices:?}"), vertices: vertices.to_vec(), ..Default::default() };
-        let octahedron = mesh(1);
-        let network = CurveNetwork { curves: vec![path(&[0, 1, 2, 3, 0][..4]), path(&[0, 4, 2])], ..CurveNetwork::default() };
-        write("closed.json", &embed(&network, &octahedron).unwrap().mesh);
-        write("open.json", &star(1));
-        let mut closed = mesh(3);
-        closed.points.iter_mut().for_each(|p| p.z *= 0.9);
-        let network = CurveNetwork { curves: vec![path(&[4, 7, 3, 0])], ..CurveNetwork::default() };
-        write("torus.json", &embed(&network, &closed).unwrap().mesh);
+        }
     }
 }
