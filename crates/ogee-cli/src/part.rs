@@ -115,6 +115,7 @@ impl PartArguments {
             level: self.level,
             max_deviation: self.max_deviation,
             packing: if pack { Packing::Packed } else { Packing::Unpacked },
+            seams: Vec::new(),
             up: self.up_axis.unwrap_or_default(),
             memory: system::available_memory(),
         }

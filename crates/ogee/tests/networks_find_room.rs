@@ -6,7 +6,7 @@ mod golden;
 mod networks;
 
 use golden::{faces, index, list, number, points};
-use networks::{along, cages, cases, curves, walks};
+use networks::{along, any_network, cages, cases, curves, walks};
 use ogee::curve_network::{
     Crossing, CurveNetwork, Embedding, NetworkCurve, Placing, PreSplit, XMatrix, XRing, control_point, embed,
 };
@@ -167,15 +167,10 @@ fn golden_networks_are_embedded() {
     assert!(same_mesh >= 6, "{same_mesh}");
 }
 
-fn any_network() -> impl Strategy<Value = (usize, Vec<Vec<usize>>, bool)> {
-    let seeds = prop::collection::vec(prop::collection::vec(0usize..1000, 2..7), 1..7);
-    (0usize..7, seeds, prop::bool::weighted(0.2))
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
     #[test]
-    fn random_networks_are_embedded((kind, seeds, forced) in any_network()) {
+    fn random_networks_are_embedded((kind, seeds, forced) in any_network(6)) {
         let mesh = cages(kind);
         let mut network = CurveNetwork { curves: walks(&mesh, &seeds), ..CurveNetwork::default() };
         network.options.force_ribbons = forced;

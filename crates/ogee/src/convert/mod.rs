@@ -3,15 +3,17 @@
 //! So that the command line, and whatever else calls it, make the same part from the same cage.
 
 mod bodies;
+mod curves;
 mod deviation;
 mod measure;
 mod part;
 mod sew;
 
+pub use curves::largest_distance_to_edges;
 pub use part::{Body, Method, Part, Report};
 
 use crate::math::{Grid, Vec3, par};
-use crate::mesh::{ControlMesh, FaceId, HalfedgeId, Meeting, Note, TopologyError, notes};
+use crate::mesh::{ControlMesh, FaceId, HalfedgeId, Meeting, Note, TopologyError, VertexId, notes};
 use crate::nurbs::{FaceAddress, KnotVector, NurbsSurface};
 use crate::pccm::{self, Layer, PccmError, Pieces, least_level, pack, unpacked};
 use crate::refine::TooDeep;
@@ -43,8 +45,18 @@ pub enum UpAxis {
     Y,
 }
 
+impl UpAxis {
+    /// Where a point of the cage is in the part.
+    fn turn(self, p: Vec3) -> Vec3 {
+        match self {
+            UpAxis::Z => p,
+            UpAxis::Y => Vec3::new(p.x, -p.z, p.y),
+        }
+    }
+}
+
 /// Choices of [`to_part`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
     /// The construction.
     pub method: Method,
@@ -55,6 +67,9 @@ pub struct Options {
     pub max_deviation: Option<f64>,
     /// Join regular quads.
     pub packing: Packing,
+    /// Edges of the cage, as pairs of vertices, that stay edges of the part: no packed face crosses them. Curves that end in
+    /// a meeting, and everything straight on from them, stay edges in any case.
+    pub seams: Vec<[u32; 2]>,
     /// Turn the part.
     pub up: UpAxis,
     /// Refuse a level that would need more than so many bytes; `None` for no limit.
@@ -78,6 +93,12 @@ pub enum ConvertError {
     Meeting {
         /// The vertex.
         vertex: u32,
+    },
+    /// A seam that is no edge.
+    #[error("the seam {}-{} is no edge of the cage", .vertices[0], .vertices[1])]
+    Seam {
+        /// What was asked for.
+        vertices: [u32; 2],
     },
     /// It does not fit.
     #[error(transparent)]
@@ -110,6 +131,7 @@ impl ConvertError {
             ConvertError::Topology(error) => error.defects[0].code(),
             ConvertError::Pccm(error) => error.code(),
             ConvertError::Meeting { .. } => "meeting",
+            ConvertError::Seam { .. } => "seam",
             ConvertError::TooDeep(_) => "too_deep",
             ConvertError::NoSurface => "no_surface",
             ConvertError::LevelTooHigh { .. } => "level_too_high",
@@ -138,6 +160,7 @@ pub fn to_part(mesh: &ControlMesh, options: &Options) -> Result<Part, ConvertErr
     if source.quads.hidden_faces().len() == source.quads.topology().face_count() {
         return Err(ConvertError::NoSurface);
     }
+    let seams = source.seams(&options.seams)?;
     let least = source.least_level(options.method)?;
     if let Some(level) = options.level.filter(|&level| level > DEEPEST_LEVEL) {
         return Err(ConvertError::LevelTooHigh { level });
@@ -155,7 +178,7 @@ pub fn to_part(mesh: &ControlMesh, options: &Options) -> Result<Part, ConvertErr
             Some(wanted) if deviation >= wanted => {
                 return Err(ConvertError::Deviation { wanted, reached: deviation, level });
             }
-            _ => return Ok(finish(&source, patches, deviation, options, mesh)),
+            _ => return Ok(finish(&source, patches, deviation, options, mesh, &seams)),
         }
     }
 }
@@ -194,6 +217,8 @@ struct Source {
     size: f64,
     quads: Level,
     points: Vec<Vec3>,
+    /// The cage itself, where its quads are those of its refinement.
+    cage: Option<Level>,
     /// For each quad the piece of the cage that it is.
     addresses: Vec<FaceAddress>,
     cage_faces: usize,
@@ -202,11 +227,7 @@ struct Source {
 impl Source {
     fn new(mesh: &ControlMesh, up: UpAxis) -> Result<Source, TopologyError> {
         let cage = Level::new(mesh)?;
-        let turned = |p: Vec3| match up {
-            UpAxis::Z => p,
-            UpAxis::Y => Vec3::new(p.x, -p.z, p.y),
-        };
-        let points: Vec<Vec3> = mesh.points.iter().map(|&p| turned(p)).collect();
+        let points: Vec<Vec3> = mesh.points.iter().map(|&p| up.turn(p)).collect();
         let first = points.first().copied().unwrap_or(Vec3::ZERO);
         let [low, high] = points.iter().fold([first, first], |[low, high], &p| [low.min(p), high.max(p)]);
         // Rounding grows with the distance from the origin.
@@ -221,6 +242,7 @@ impl Source {
             addresses: faces.clone().map(|face| FaceAddress { face, corner: None }).collect(),
             points: centred,
             quads: cage.clone(),
+            cage: None,
         };
         if !topology.is_quads() {
             let corners = faces.flat_map(|face| {
@@ -228,8 +250,31 @@ impl Source {
             });
             source.addresses = corners.collect();
             (source.quads, source.points) = cage.refine_points(&source.points);
+            source.cage = Some(cage);
         }
         Ok(source)
+    }
+
+    /// The halfedges of the quads along edges of the cage.
+    fn seams(&self, edges: &[[u32; 2]]) -> Result<Vec<HalfedgeId>, ConvertError> {
+        let topology = self.cage.as_ref().unwrap_or(&self.quads).topology();
+        let mut seams = Vec::with_capacity(edges.len());
+        for &vertices in edges {
+            let [a, b] = vertices;
+            let inside = vertices.iter().all(|&v| (v as usize) < topology.vertex_count());
+            let leaves = |from: u32, to: u32| {
+                let ring = inside.then(|| topology.ring(VertexId(from)));
+                ring.into_iter().flatten().find(|&h| topology.target(h).0 == to)
+            };
+            let h = leaves(a, b).or_else(|| leaves(b, a)).ok_or(ConvertError::Seam { vertices })?;
+            if self.cage.is_some() {
+                // The two halves: the first side of quad h, and the last of the quad after it.
+                seams.extend([HalfedgeId(4 * h.0), HalfedgeId(4 * topology.next(h).0 + 3)]);
+            } else {
+                seams.push(h);
+            }
+        }
+        Ok(seams)
     }
 
     fn least_level(&self, method: Method) -> Result<u32, PccmError> {
@@ -370,12 +415,12 @@ fn finish(
     deviation: f64,
     options: &Options,
     mesh: &ControlMesh,
+    seams: &[HalfedgeId],
 ) -> Part {
     let mut all_notes = notes(mesh);
     all_notes.extend_from_slice(patches.notes());
     let address = |quad: u32| patches.address(source, quad);
-    let seams = Vec::new();
-    let shells = sew::sew(&patches.base, patches.faces(options.packing, &seams), patches.broken(), address);
+    let shells = sew::sew(&patches.base, patches.faces(options.packing, seams), patches.broken(), address);
     let mut bodies = bodies::bodies(shells, &mut all_notes);
 
     for body in &mut bodies {

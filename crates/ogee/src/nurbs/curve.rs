@@ -21,6 +21,15 @@ impl NurbsCurve {
         points.iter().zip(basis.values[0]).fold(Vec3::ZERO, |sum, (&p, weight)| sum + weight * p)
     }
 
+    /// Position, first and second derivative at a parameter.
+    pub(crate) fn jet(&self, t: f64) -> [Vec3; 3] {
+        let basis = self.knots.basis(t);
+        let points = &self.points[basis.first..=basis.first + self.knots.degree()];
+        basis
+            .values
+            .map(|values| points.iter().zip(values).fold(Vec3::ZERO, |sum, (&p, weight)| sum + weight * p))
+    }
+
     /// The same curve the other way, over the same domain.
     pub fn reversed(&self) -> NurbsCurve {
         let [start, end] = self.knots.domain();

@@ -8,6 +8,7 @@ use ogee::{
     Boundary, ControlMesh, Corner, FaceList, HalfedgeId, Level, Location, Meeting, PatchTable, Sharpness,
     Topology, Vec3, VertexId, shapes,
 };
+use proptest::prelude::*;
 use serde_json::Value;
 use std::collections::BTreeSet;
 
@@ -136,4 +137,10 @@ pub fn walks(mesh: &ControlMesh, seeds: &[Vec<usize>]) -> Vec<NetworkCurve> {
         }
     }
     curves
+}
+
+/// The number of a cage, random choices for up to so many paths on it, and whether ribbons are forced.
+pub fn any_network(paths: usize) -> impl Strategy<Value = (usize, Vec<Vec<usize>>, bool)> {
+    let seeds = prop::collection::vec(prop::collection::vec(0usize..1000, 2..7), 1..=paths);
+    (0usize..7, seeds, prop::bool::weighted(0.2))
 }
