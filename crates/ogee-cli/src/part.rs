@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use clap::Args;
 use ogee::convert::{ConvertError, Method, Options, Packing, Part, UpAxis, to_part};
+use ogee::curve_network::NetworkCurve;
 use ogee::pccm::PccmError;
 use ogee::{ControlMesh, Vec3};
 use ogee_formats::step::{Schema, Unit};
@@ -96,15 +97,19 @@ pub(crate) struct PartReport {
 }
 
 impl PartArguments {
-    /// Converts the cage `mesh`, which came from `cage`; returns the seconds that took.
+    /// Converts the cage `mesh`, which came from `cage`; `curves` lie on it and stay on edges of faces. Returns the seconds
+    /// that took.
     pub(crate) fn convert(
         &self,
         cage: &Cage,
         mesh: &ControlMesh,
+        curves: &[NetworkCurve],
         format: PartFormat,
     ) -> Result<(Part, f64), Failure> {
         let start = Instant::now();
-        let part = to_part(mesh, &self.options(format)).map_err(|error| refusal(cage, &error))?;
+        let seams = curves.iter().flat_map(NetworkCurve::legs).collect();
+        let options = Options { seams, ..self.options(format) };
+        let part = to_part(mesh, &options).map_err(|error| refusal(cage, &error))?;
         Ok((part, start.elapsed().as_secs_f64()))
     }
 
@@ -116,9 +121,14 @@ impl PartArguments {
             max_deviation: self.max_deviation,
             packing: if pack { Packing::Packed } else { Packing::Unpacked },
             seams: Vec::new(),
-            up: self.up_axis.unwrap_or_default(),
+            up: self.up(),
             memory: system::available_memory(),
         }
+    }
+
+    /// The axis that points up.
+    pub(crate) fn up(&self) -> UpAxis {
+        self.up_axis.unwrap_or_default()
     }
 
     /// Writes a part; its name is that of the destination, or `stem` where that has none.

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
 
 use ogee::ControlMesh;
-use ogee::curve_network::{CurveNetwork, NetworkCurve, embed};
+use ogee::curve_network::{Crossing, CurveNetwork, NetworkCurve, embed};
 use ogee::shapes;
 
 fn main() {
@@ -40,6 +40,14 @@ fn lines(step: u32, both: bool) -> CurveNetwork {
 #[divan::bench]
 fn crossing_lines(bencher: divan::Bencher<'_, '_>) {
     let (mesh, network) = (sheet(), lines(2, true));
+    bencher.bench_local(|| embed(&network, &mesh).unwrap());
+}
+
+/// The same, with plain rules where they cross.
+#[divan::bench]
+fn smooth_crossings(bencher: divan::Bencher<'_, '_>) {
+    let (mesh, mut network) = (sheet(), lines(2, true));
+    network.options.crossing = Crossing::Smooth;
     bencher.bench_local(|| embed(&network, &mesh).unwrap());
 }
 

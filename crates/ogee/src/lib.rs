@@ -69,6 +69,7 @@
 //! | `refine` | the one-to-four split, [`Step`], [`Refinement`], [`FineMesh`] |
 //! | `patch` | [`PatchTable`]: what each face's surface is made of; [`Location`]; limit masks; pieces of a level, taken out |
 //! | `limit` | [`LimitSurface`]: the surface at any point; [`Pattern`]: at the same places on every face; [`ClosestPoints`]; [`limit_vertices`] |
+//! | [`fairing`] | the cage that bends least, of all whose surface goes through given points |
 //! | [`nurbs`] | knots, curves, surfaces of any degree, shells |
 //! | [`stam`] | the limit surface a second time, by eigenvectors, at smooth interior vertices |
 //! | [`pccm`] | one smooth patch per quad, and packing them into few |
@@ -94,6 +95,7 @@ mod catmull_clark;
 pub mod convert;
 mod crease;
 pub mod curve_network;
+pub mod fairing;
 mod limit;
 pub mod math;
 pub mod mesh;

@@ -33,12 +33,10 @@ fn cut_out(
     let mut seen = BTreeSet::from([VertexId(center)]);
     let mut next = 0;
     for _ in 0..rings {
-        for i in next..vertices.len() {
-            next = i + 1;
-            for h in topology.ring(vertices[i]) {
-                faces.insert(topology.face(h));
-            }
+        for &v in &vertices[next..] {
+            faces.extend(topology.ring(v).map(|h| topology.face(h)));
         }
+        next = vertices.len();
         for &f in &faces {
             for v in topology.halfedges(f).map(|h| topology.origin(h)) {
                 if seen.insert(v) {

@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use ogee::curve_network::{
-    Crossing, CurveNetwork, MeetingOptions, NetworkCurve, NetworkError, NetworkPlan, PreSplit, embed,
+    Crossing, CurveNetwork, MeetingOptions, NetworkCurve, NetworkError, NetworkPlan, PointConstraint,
+    PreSplit, embed,
 };
 use ogee::{ControlMesh, Corner, Crease, FaceList, Sharpness, Vec3, shapes};
 use proptest::prelude::*;
@@ -147,6 +148,48 @@ fn numbers_out_of_range_are_refused() {
     let mut deep = good;
     deep.options.pre_split = PreSplit::Fixed(60);
     assert_eq!(embed(&deep, &grid()).unwrap_err().code(), "E_PARAMETER");
+}
+
+#[test]
+fn wishes_that_cannot_be_are_refused() {
+    let good = network(vec![curve("spine", &[2, 8, 14, 20, 26, 32])]);
+    let with = |change: &dyn Fn(&mut NetworkCurve)| {
+        let mut bad = good.clone();
+        change(&mut bad.curves[0]);
+        refused(&bad, &grid())
+    };
+    let up = Some(Vec3::new(0.0, 0.0, 1.0));
+    let error = with(&|curve| curve.normals = vec![up; 5]);
+    assert_eq!(error.code(), "E_CONSTRAINT_LENGTH");
+    assert!(error.to_string().contains("curve spine has 5 normals for 6 vertices"), "{error}");
+    assert_eq!(with(&|curve| curve.cross_curvatures = vec![None; 7]).code(), "E_CONSTRAINT_LENGTH");
+    let error = with(&|curve| curve.normals = vec![up, up, Some(Vec3::ZERO), up, up, up]);
+    assert_eq!(error.code(), "E_CONSTRAINT_NOT_FINITE");
+    assert!(error.to_string().contains("vertex 14"), "{error}");
+    let error = with(&|curve| curve.cross_curvatures = vec![Some(f64::NAN); 6]);
+    assert_eq!((error.code(), error.defects.len()), ("E_CONSTRAINT_NOT_FINITE", 6));
+    let mut points = good.clone();
+    points.points = vec![PointConstraint { vertex: 15, ..PointConstraint::default() }];
+    assert_eq!(refused(&points, &grid()).code(), "E_POINTS_WITHOUT_FAIRING");
+    points.options.fair = true;
+    assert!(NetworkPlan::new(&points, &grid()).is_ok());
+    points.points[0].vertex = 36;
+    assert_eq!(refused(&points, &grid()).code(), "E_POINT_VERTEX");
+    points.points[0] = PointConstraint { vertex: 3, position: None, normal: Some(Vec3::ZERO) };
+    assert_eq!(refused(&points, &grid()).code(), "E_CONSTRAINT_NOT_FINITE");
+}
+
+#[test]
+fn ends_of_curves_along_the_border_are_told_of_where_it_goes_on() {
+    let codes = |curves: Vec<NetworkCurve>, mesh: &ControlMesh| {
+        let plan = NetworkPlan::new(&network(curves), mesh).unwrap();
+        plan.warnings.iter().map(|warning| (warning.code(), warning.vertex())).collect::<Vec<_>>()
+    };
+    assert_eq!(codes(vec![curve("rim", &[0, 1, 2, 3, 4, 5])], &grid()), []);
+    assert_eq!(codes(vec![curve("rim", &[0, 1, 2, 3])], &grid()), [("W_BORDER_END", 3)]);
+    let mut mesh = grid();
+    mesh.corners.push(Corner { vertex: 3, sharpness: Sharpness::Infinite });
+    assert_eq!(codes(vec![curve("rim", &[0, 1, 2, 3])], &mesh), []);
 }
 
 #[test]

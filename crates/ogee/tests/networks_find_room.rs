@@ -217,6 +217,44 @@ fn tags_and_holes_stay_with_their_faces() {
 }
 
 #[test]
+fn texture_coordinates_go_along() {
+    // Every face has a square of its own, so that there is a seam along every edge.
+    let mut mesh = shapes::grid(6, 6);
+    let squares = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let offset = |f: usize| [3.0 * f as f64, 0.0];
+    let values = (0..36).flat_map(|f| squares.map(|[u, v]| [u + offset(f)[0], v])).collect();
+    mesh.uv =
+        Some(ogee::FaceVarying { values, indices: (0..144).collect(), rule: ogee::FaceVaryingRule::All });
+    let mut network =
+        CurveNetwork { curves: vec![path(&[3, 10, 17, 24, 31, 38, 45])], ..CurveNetwork::default() };
+    for splits in [0, 1] {
+        network.options.pre_split = PreSplit::Fixed(splits);
+        let embedding = embed(&network, &mesh).unwrap();
+        let uv = embedding.mesh.uv.as_ref().unwrap();
+        let corners = embedding.mesh.faces.iter().flatten();
+        assert_eq!(uv.indices.len(), embedding.mesh.faces.corners().len());
+        // A flat sheet with flat curves: coordinates are those of the place in its square.
+        for (&v, &index) in corners.zip(&uv.indices) {
+            let [u, w] = uv.values[index as usize];
+            let f = (u / 3.0 + 1e-9).floor();
+            let place = [u - 3.0 * f + f % 6.0, w + (f / 6.0).floor()];
+            let p = embedding.mesh.points[v as usize];
+            let on_border = [p.x, p.y].iter().any(|x| *x < 0.7 || *x > 5.3);
+            assert!(
+                on_border || ((p.x - place[0]).abs() + (p.y - place[1]).abs()) < 1e-12,
+                "{splits} splits, vertex {v}: {p:?} {place:?}"
+            );
+        }
+        assert!(embedding.warnings.is_empty());
+    }
+    // Ribbons put vertices in, which have none.
+    network.options.force_ribbons = true;
+    let embedding = embed(&network, &mesh).unwrap();
+    assert!(embedding.mesh.uv.is_none());
+    assert_eq!(embedding.warnings[0].code(), "W_UV_DROPPED");
+}
+
+#[test]
 fn meeting_points_that_share_a_vertex_are_told_of() {
     // Two curves end side by side, one edge apart.
     let curve = |name: &str, vertices: &[u32]| NetworkCurve {

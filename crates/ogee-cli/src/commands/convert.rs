@@ -4,6 +4,9 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::Args;
+use ogee::curve_network::NetworkCurve;
+use ogee_formats::CageFormat;
+use ogee_formats::network::{self, NetworkFormat};
 use serde::Serialize;
 
 use crate::arguments::OutputArguments;
@@ -65,11 +68,13 @@ impl Convert {
         let timestamp = timestamp::from_environment()?;
         let progress = console.progress();
         progress.step("reading");
-        let cage = self.cage.read()?;
+        let (name, cage_format, bytes) = self.cage.load()?;
+        let cage = self.cage.parse(name, cage_format, &bytes)?;
+        let curves = curves(cage_format, &bytes);
         destination.check()?;
 
         progress.step("converting");
-        let (part, convert) = self.part.convert(&cage, cage.mesh(), format)?;
+        let (part, convert) = self.part.convert(&cage, cage.mesh(), &curves, format)?;
 
         progress.step("writing");
         let start = Instant::now();
@@ -93,6 +98,13 @@ impl Convert {
         console.json(&report)?;
         Ok(ExitCode::SUCCESS)
     }
+}
+
+/// The curves that `ogee network` wrote beside a cage.
+fn curves(format: CageFormat, bytes: &[u8]) -> Vec<NetworkCurve> {
+    // A file without curves is refused, which is no fault here.
+    let file = (format == CageFormat::Json).then(|| network::read(bytes, NetworkFormat::Json).ok()).flatten();
+    file.map(|file| file.network.curves).unwrap_or_default()
 }
 
 fn table(report: &Report<'_>, verbose: bool) -> Table {

@@ -6,14 +6,16 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::Args;
-use ogee::Place;
+use ogee::convert::largest_distance_to_edges;
 use ogee::curve_network::{
-    Crossing, CurveNetwork, Embedding, MeetingFigures, NetworkCurve, NetworkDefect, NetworkError,
-    NetworkFigures, NetworkOptions, NetworkWarning, Placing, PreSplit, Segment, XConfiguration, embed,
+    BareNetwork, Crossing, CurveNetwork, Embedding, MeetingFigures, NetworkCurve, NetworkDefect,
+    NetworkError, NetworkFigures, NetworkOptions, NetworkWarning, Placing, PreSplit, Segment, Skin,
+    XConfiguration, embed, skin,
 };
-use ogee_formats::CageFormat;
+use ogee::{ControlMesh, Place};
 use ogee_formats::curves::{self, NamedCurve};
 use ogee_formats::network::{self, NetworkFile, NetworkFormat};
+use ogee_formats::{CageFile, CageFormat};
 use serde::Serialize;
 
 use crate::arguments::OutputArguments;
@@ -153,6 +155,9 @@ struct Report<'a> {
     warnings: &'a [Finding],
     #[serde(skip_serializing_if = "Option::is_none")]
     part: Option<PartReport>,
+    /// The largest distance between the curves and the edges of the part.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    max_edge_error: Option<f64>,
     seconds: Seconds,
     file_bytes: u64,
     notes: &'a [Finding],
@@ -211,16 +216,19 @@ impl Network {
         let figures = embedding.measure().ok_or_else(changed)?;
         let measure = start.elapsed().as_secs_f64();
 
-        let mut part = None;
+        let paths = paths(&network, &embedding);
+        let (mut part, mut edge_error) = (None, None);
         if let NetworkOutput::Part(kind) = format {
             progress.step("converting");
-            part = Some(self.part.convert(&cage, &embedding.mesh, kind)?);
+            let (made, seconds) = self.part.convert(&cage, &embedding.mesh, &paths, kind)?;
+            let targets: Vec<_> = embedding.segments.iter().map(|segment| segment.target.clone()).collect();
+            edge_error = Some(largest_distance_to_edges(&made, &targets, self.part.up()));
+            part = Some((made, seconds));
         }
         let convert = part.as_ref().map_or(0.0, |(_, seconds)| *seconds);
 
         progress.step("writing");
         let start = Instant::now();
-        let paths = paths(&network, &embedding);
         if let Some(Wireframe { format, destination }) = &wireframe {
             let curves = named_curves(&network, &embedding);
             let options = self.part.step_options(destination, &self.cage.stem(), timestamp.clone());
@@ -254,6 +262,7 @@ impl Network {
             faces: embedding.mesh.faces.len(),
             warnings: &warnings,
             part: part.as_ref().map(|(part, _)| self.part.report(part)),
+            max_edge_error: edge_error,
             seconds,
             file_bytes,
             notes: &notes,
@@ -271,6 +280,13 @@ impl Network {
     fn read(&self) -> Result<(Cage, String, NetworkFile), Failure> {
         let start = Instant::now();
         let (name, format, bytes) = self.cage.load()?;
+        if let Some(bare) = self.bare(format, &bytes) {
+            let (mesh, file) = skinned(bare, &name)?;
+            let file_of_cage = CageFile { mesh, face_lines: Vec::new(), warnings: Vec::new() };
+            let cage =
+                Cage { name: name.clone(), file: file_of_cage, seconds: start.elapsed().as_secs_f64() };
+            return Ok((cage, name, file));
+        }
         let cage = self.cage.parse(name.clone(), format, &bytes)?;
         let (name, file) = match &self.curves {
             None => {
@@ -303,6 +319,36 @@ impl Network {
         }
         Ok((Cage { seconds: start.elapsed().as_secs_f64(), ..cage }, name, file))
     }
+}
+
+impl Network {
+    /// The network of a file that has curves and no faces.
+    fn bare(&self, format: CageFormat, bytes: &[u8]) -> Option<NetworkFile> {
+        let format = match format {
+            CageFormat::Json => NetworkFormat::Json,
+            CageFormat::Obj => NetworkFormat::Obj,
+            _ => return None,
+        };
+        let is_bare = |file: &NetworkFile| !file.has_faces && !file.points.is_empty();
+        // What is wrong with a file that has faces its readers say.
+        network::read(bytes, format).ok().filter(|file| self.curves.is_none() && is_bare(file))
+    }
+}
+
+/// A cage for a network that has none, and the network on it.
+fn skinned(file: NetworkFile, name: &str) -> Result<(ControlMesh, NetworkFile), Failure> {
+    let NetworkFile { network, points, loops, .. } = file;
+    let bare = BareNetwork { points, curves: network.curves, loops };
+    let Skin { mesh, curves } = skin(&bare).map_err(|error| {
+        let of_defect = |defect: &NetworkDefect| {
+            let mut finding = Finding::in_file(defect.code(), defect.to_string(), name);
+            finding.location.place = defect.place();
+            finding
+        };
+        Failure::refused(error.defects.iter().map(of_defect).collect(), 0)
+    })?;
+    let network = CurveNetwork { curves, ..network };
+    Ok((mesh, NetworkFile { network, warnings: file.warnings, ..NetworkFile::default() }))
 }
 
 impl Laying {
@@ -497,6 +543,9 @@ fn table(report: &Report<'_>, verbose: bool) -> Table {
     }
     if let Some(part) = &report.part {
         part.rows(&mut table, verbose);
+    }
+    if let Some(error) = report.max_edge_error {
+        table.row("edges", format!("curves at most {} off edges of the part", figure(error)));
     }
     let Seconds { read, embed, measure, convert, write } = report.seconds;
     let total = read + embed + measure + convert + write;

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use serde::de::{Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
 /// Keys of a network of curves that stands in the same file.
-const OF_NETWORKS: [&str; 4] = ["curves", "options", "meeting", "points"];
+const OF_NETWORKS: [&str; 5] = ["curves", "options", "meeting", "points", "loops"];
 
 /// The values of the keys, as the file gives them.
 #[derive(Default)]

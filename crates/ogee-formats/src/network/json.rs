@@ -14,8 +14,7 @@ use crate::json::{once, syntax};
 use crate::text::{check_is_text, without_mark};
 
 /// Keys of a cage that may stand in the same file, and of the golden networks.
-const PASSED_OVER: [&str; 13] = [
-    "faces",
+const PASSED_OVER: [&str; 12] = [
     "creases",
     "corners",
     "holes",
@@ -34,6 +33,8 @@ const PASSED_OVER: [&str; 13] = [
 #[derive(Default)]
 struct RawNetwork {
     vertices: Option<Vec<[f64; 3]>>,
+    faces: Option<Vec<IgnoredAny>>,
+    loops: Option<Vec<Vec<u32>>>,
     curves: Option<Vec<RawCurve>>,
     options: Option<RawOptions>,
     meeting: Option<BTreeMap<String, RawMeeting>>,
@@ -145,6 +146,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<NetworkFile, ReadError> {
         file.warnings.push(Warning { line: None, code: "unknown_key", message });
     }
     file.points = vectors(raw.vertices.unwrap_or_default());
+    file.has_faces = raw.faces.is_some_and(|faces| !faces.is_empty());
+    file.loops = raw.loops.unwrap_or_default();
     for (number, curve) in raw.curves.unwrap_or_default().into_iter().enumerate() {
         let outcome = draft(number, curve).and_then(finish);
         match outcome {
@@ -254,6 +257,8 @@ impl<'de> Deserialize<'de> for RawNetwork {
                 while let Some(key) = map.next_key::<String>()? {
                     match key.as_str() {
                         "vertices" => once(&mut network.vertices, &mut map, "vertices")?,
+                        "faces" => once(&mut network.faces, &mut map, "faces")?,
+                        "loops" => once(&mut network.loops, &mut map, "loops")?,
                         "curves" => once(&mut network.curves, &mut map, "curves")?,
                         "options" => once(&mut network.options, &mut map, "options")?,
                         "points" => once(&mut network.points, &mut map, "points")?,

@@ -18,6 +18,9 @@
 //! list of `{"vertex": v, "position": [x, y, z], "normal": [x, y, z]}`, are met as well. `"scheme"` is `"abbas-nasri-2004"` or
 //! `"generalised"`: the papers' own forms. `"flatten"` and `"straighten"` change curves so that the surface can be smooth.
 //!
+//! A file without faces is a bare network: `vertices` are its points, and a cage is made between the curves. `loops`, lists of
+//! vertices counter-clockwise, say which loops of curves are to be filled, where that cannot be seen.
+//!
 //! In OBJ each line `l v1 v2 ..` is a curve, closed if it ends where it began, with the name of the `o` or `g` before it. A
 //! comment `#curve-control NAME x y z x y z ..` gives its control points.
 
@@ -41,6 +44,10 @@ pub struct NetworkFile {
     pub network: CurveNetwork,
     /// The vertices of the file, if it has any.
     pub points: Vec<Vec3>,
+    /// True if it has faces, which are for [`read_cage`](crate::read_cage). Where it has none the curves are to be skinned.
+    pub has_faces: bool,
+    /// The loops of a network without faces, each as its vertices; empty if they are to be found.
+    pub loops: Vec<Vec<u32>>,
     /// What was passed over, and curves that were fitted.
     pub warnings: Vec<Warning>,
 }

@@ -25,6 +25,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<NetworkFile, ReadError> {
 #[derive(Default)]
 struct Reader {
     points: Vec<Vec3>,
+    has_faces: bool,
     group: Option<String>,
     lines: Vec<(u32, String, Vec<u32>)>,
     uses: HashMap<String, usize>,
@@ -52,6 +53,7 @@ impl Reader {
                 let words: Vec<String> = tokens.map(shown).collect();
                 self.group = (!words.is_empty()).then(|| words.join("_"));
             }
+            Some(b"f" | b"fo") => self.has_faces = true,
             Some(b"l") => self.curve(number, tokens),
             _ => {}
         }
@@ -99,7 +101,8 @@ impl Reader {
     }
 
     fn finish(mut self) -> Result<NetworkFile, ReadError> {
-        let mut file = NetworkFile { points: self.points, ..NetworkFile::default() };
+        let mut file =
+            NetworkFile { points: self.points, has_faces: self.has_faces, ..NetworkFile::default() };
         for (line, name, mut vertices) in self.lines {
             let closed = vertices.len() > 1 && vertices.first() == vertices.last();
             if closed {

@@ -22,7 +22,7 @@ pub(super) fn check_curves(
     let mut defects = Vec::new();
     for curve in &network.curves {
         check_path(curve, mesh, topology, &mut defects);
-        check_control(curve, &mut defects);
+        check_shape(curve, &mut defects);
         check_wants(curve, &mut defects);
     }
     check_points(network, mesh, &mut defects);
@@ -70,7 +70,8 @@ fn check_path(
     }
 }
 
-fn check_control(curve: &NetworkCurve, defects: &mut Vec<NetworkDefect>) {
+/// Control points, or points to go through: one kind, one per vertex, finite.
+pub(super) fn check_shape(curve: &NetworkCurve, defects: &mut Vec<NetworkDefect>) {
     let name = || curve.name.clone();
     if curve.control.is_some() && curve.through.is_some() {
         defects.push(NetworkDefect::TwoShapes { curve: name() });

@@ -92,6 +92,22 @@ pub enum NetworkDefect {
         "fairing found no solution: the residual stays at {residual:e}; fix more vertices or take constraints away"
     )]
     Fairing { residual: f64 },
+    #[error("there are no curves to make a cage for; give some")]
+    NoCurves,
+    #[error(
+        "curve {curve} is alone at vertex {vertex}: every end needs another curve, and a closed curve two points on others"
+    )]
+    CurveAlone { curve: String, vertex: u32 },
+    #[error(
+        "it cannot be seen from the directions of curves at vertex {vertex} how loops run; give the loops"
+    )]
+    LoopAmbiguous { vertex: u32 },
+    #[error(
+        "loop {number} does not follow curves all round, from one point where they meet to the next; mend it"
+    )]
+    LoopBroken { number: usize },
+    #[error("two loops follow a curve from vertex {vertex} in one direction; turn one of them round")]
+    LoopTwice { vertex: u32 },
     #[error("{what} is {value}, which is not in its range; {remedy}")]
     Parameter { what: String, value: f64, remedy: &'static str },
 }
@@ -125,12 +141,17 @@ impl NetworkDefect {
             | NetworkDefect::PointVertex { vertex, .. }
             | NetworkDefect::PointsWithoutFairing { vertex }
             | NetworkDefect::Contradiction { vertex, .. }
+            | NetworkDefect::CurveAlone { vertex, .. }
+            | NetworkDefect::LoopAmbiguous { vertex }
+            | NetworkDefect::LoopTwice { vertex }
             | NetworkDefect::Repair { vertex } => Some(Place::Vertex(vertex)),
             NetworkDefect::CurveShort { .. }
             | NetworkDefect::TargetLength { .. }
             | NetworkDefect::TargetNotFinite { .. }
             | NetworkDefect::TwoShapes { .. }
             | NetworkDefect::ConstraintLength { .. }
+            | NetworkDefect::NoCurves
+            | NetworkDefect::LoopBroken { .. }
             | NetworkDefect::Fairing { .. }
             | NetworkDefect::Parameter { .. } => None,
         }
@@ -163,6 +184,11 @@ impl NetworkDefect {
             NetworkDefect::CrossingNotRegular { .. } => "E_CROSSING_NOT_REGULAR",
             NetworkDefect::Repair { .. } => "E_REPAIR",
             NetworkDefect::Parameter { .. } => "E_PARAMETER",
+            NetworkDefect::NoCurves => "E_NO_CURVES",
+            NetworkDefect::CurveAlone { .. } => "E_CURVE_ALONE",
+            NetworkDefect::LoopAmbiguous { .. } => "E_LOOP_AMBIGUOUS",
+            NetworkDefect::LoopBroken { .. } => "E_LOOP_BROKEN",
+            NetworkDefect::LoopTwice { .. } => "E_LOOP_TWICE",
             NetworkDefect::ConstraintLength { .. } => "E_CONSTRAINT_LENGTH",
             NetworkDefect::ConstraintNotFinite { .. } => "E_CONSTRAINT_NOT_FINITE",
             NetworkDefect::PointVertex { .. } => "E_POINT_VERTEX",

@@ -1,5 +1,6 @@
 //! The whole way from a cage and a network to a cage whose surface contains it.
 
+use super::between::faired;
 use super::complex::reposition;
 use super::defect::{NetworkDefect, NetworkError};
 use super::network::{CurveNetwork, Placing, PreSplit};
@@ -114,6 +115,9 @@ fn embed_split(
     let topology = Topology::new(&room).map_err(|error| NetworkError {
         defects: error.defects.into_iter().map(NetworkDefect::Mesh).collect(),
     })?;
+    if let (true, Some(&vertex)) = (cage.uv.is_some() && room.uv.is_none(), changed.first()) {
+        warnings.push(NetworkWarning::UvDropped { vertex });
+    }
     warnings.extend(overlaps.into_iter().map(|vertex| NetworkWarning::XOverlap { vertex }));
     let mut x_configurations = Vec::new();
     for ((meeting, site), mut ring) in split.meetings.iter().zip(&sites).zip(rings) {
@@ -142,6 +146,12 @@ fn embed_split(
     let missed = shape_rows(&mut room.points, network, &split, &sides, &decided, &mut warnings);
     move_paths(&mut room.points, &split, &sides);
     room.meetings = x_configurations.iter().map(XConfiguration::meeting).collect();
+    if network.options.fair {
+        let points = faired(&room, network, &split, &sides, &decided, &mut warnings)?;
+        room.points = points;
+        // Rows are met to rounding; the curves are exact.
+        move_paths(&mut room.points, &split, &sides);
+    }
     warnings.extend(tell_missed(&missed, network, &split.segments, &room));
     let crowded = missed.iter().any(|missed| missed.crowded);
     let (segments, splits) = (split.segments, plan.pre_split);

@@ -10,12 +10,15 @@
 //! curves where they meet, and says how often the cage must be split before there is room for all. [`embed`] goes the
 //! whole way to a cage whose surface contains the curves. The page is `docs/methods/curve_network.md`.
 
+mod bare;
+mod between;
 mod check;
 mod complex;
 mod defect;
 mod embed;
 mod fold;
 mod incidence;
+mod loops;
 mod measure;
 mod network;
 mod place;
@@ -25,6 +28,7 @@ mod repair;
 pub(crate) mod rule;
 mod sectors;
 mod side_rows;
+mod skin;
 mod tangent_plane;
 mod target_curve;
 mod through;
@@ -46,6 +50,7 @@ pub use network::{
 pub use place::{Arrival, Placement, Site, place};
 pub use plan::{MeetingVertex, NetworkPlan, Segment, SegmentEnd, ring_normal};
 pub use repair::{MeetingPorts, Repaired, Ribbons, TaggedPath, repair};
+pub use skin::{BareNetwork, Skin, skin};
 pub use tangent_plane::{TangentPlane, kink, straighten};
 pub use target_curve::{CurveError, CurveJet, Fit, TargetCurve};
 pub use warning::NetworkWarning;

@@ -10,7 +10,7 @@ use super::target_curve::TargetCurve;
 use super::through::resolved;
 use super::warning::NetworkWarning;
 use crate::math::Vec3;
-use crate::mesh::{ControlMesh, Topology, VertexId};
+use crate::mesh::{Boundary, ControlMesh, Topology, VertexId};
 
 /// A curve is moved onto the border curve it starts on without a warning below this distance, of the size of the mesh.
 const SAME_POINT: f64 = 1e-9;
@@ -98,6 +98,7 @@ impl NetworkPlan {
         let mut warnings = Vec::new();
         let targets = targets(network, mesh, &topology, &incidence, &mut warnings);
         let segments = cut(network, &topology, &incidence, &targets);
+        warnings.extend(border_ends(network, mesh, &topology, &segments));
         let crossing = network.options.crossing;
         let of_role = |role| {
             let vertices = incidence.vertices.keys().copied();
@@ -239,6 +240,32 @@ fn targets(
     targets
 }
 
+/// Ends of curves along the border where the border goes on: the vertex has two faces or more and is not sharp.
+fn border_ends(
+    network: &CurveNetwork,
+    mesh: &ControlMesh,
+    topology: &Topology,
+    segments: &[Segment],
+) -> Vec<NetworkWarning> {
+    let sharp = |v: u32| mesh.corners.iter().any(|c| c.vertex == v && c.sharpness.value() == f64::INFINITY);
+    let one_face_is_sharp = mesh.scheme.boundary == Boundary::EdgeAndCorner;
+    let goes_on = |v: &u32| {
+        let one_face = topology.ring(VertexId(*v)).count() == 1;
+        !(sharp(*v) || one_face && one_face_is_sharp)
+    };
+    let on_border = segments.iter().filter(|segment| segment.along_border && !segment.target.is_closed());
+    on_border
+        .flat_map(|segment| {
+            let path = &segment.vertices;
+            let name = &network.curves[segment.curve].name;
+            [path[0], path[path.len() - 1]]
+                .into_iter()
+                .filter(goes_on)
+                .map(|vertex| NetworkWarning::BorderEnd { vertex, curve: name.clone() })
+        })
+        .collect()
+}
+
 /// Cuts every curve at its meeting points.
 fn cut(
     network: &CurveNetwork,
@@ -288,7 +315,7 @@ fn cut(
 fn splits_needed(segment: &Segment, smooth_crossings: &[u32]) -> u32 {
     let mut needed = 0;
     let last = segment.vertices.len() - 1;
-    let crosses = |i: usize| smooth_crossings.contains(&segment.vertices[i]);
+    let crosses = |i: usize| smooth_crossings.binary_search(&segment.vertices[i]).is_ok();
     let is_stop = |i: &usize| !segment.target.is_closed() && (*i == 0 || *i == last) || crosses(*i);
     let stops: Vec<usize> = (0..=last).filter(is_stop).collect();
     let mut gaps: Vec<[usize; 2]> = stops.windows(2).map(|pair| [pair[0], pair[1]]).collect();

@@ -2,13 +2,13 @@
 
 use super::defect::{NetworkDefect, NetworkError};
 use super::plan::{NetworkPlan, Segment};
-use crate::mesh::{Boundary, ControlMesh, Corner, Crease, FaceList, Sharpness, VertexId};
+use crate::mesh::{Boundary, ControlMesh, Corner, Crease, FaceList, FaceVarying, Sharpness, VertexId};
 use crate::rules::Level;
 
 impl NetworkPlan {
     /// The cage after the plan's splits, and the plan for it, which asks for no more. Vertices keep their numbers, so
     /// meeting points do; paths take in the points of their edges, and curves are the same curves, refined. Tags fade as
-    /// refinement says; texture coordinates are left behind.
+    /// refinement says, and texture coordinates go along.
     ///
     /// # Errors
     /// If the cage is not the one of the plan, or there would be too many faces.
@@ -21,13 +21,23 @@ impl NetworkPlan {
             refuse(vec![NetworkDefect::Parameter { what, value, remedy: "choose fewer" }])
         })?;
         let mut points = mesh.points.clone();
+        let mut texture = mesh.uv.as_ref().map(|uv| level.face_varying(uv));
         let mut plan = NetworkPlan { pre_split: 0, ..self.clone() };
         for _ in 0..self.pre_split {
             plan.segments = plan.segments.iter().map(|segment| refined(segment, &level)).collect();
             (level, points) = level.refine_points(&points);
+            texture = texture.map(|(level, values)| level.refine_points(&values));
         }
-        let mesh = if self.pre_split == 0 { mesh.clone() } else { to_cage(&level, points) };
-        Ok((mesh, plan))
+        if self.pre_split == 0 {
+            return Ok((mesh.clone(), plan));
+        }
+        let mut cage = to_cage(&level, points);
+        let rule = mesh.uv.as_ref().map(|uv| uv.rule).unwrap_or_default();
+        cage.uv = texture.map(|(level, values)| {
+            let indices = level.topology().origin.to_vec();
+            FaceVarying { values, indices, rule }
+        });
+        Ok((cage, plan))
     }
 }
 

@@ -17,7 +17,7 @@
 use super::defect::{NetworkDefect, NetworkError};
 use super::sectors::{Sector, Sectors};
 use crate::math::Vec3;
-use crate::mesh::{ControlMesh, FaceId, FaceList, Topology, Valence, VertexId};
+use crate::mesh::{ControlMesh, FaceId, FaceList, FaceVarying, Topology, Valence, VertexId};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A path of a network through a mesh.
@@ -51,7 +51,8 @@ pub struct Ribbons {
 /// A mesh with room for a network.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Repaired {
-    /// The mesh: old vertices first, with their numbers. It has the tags of the old one but no texture coordinates.
+    /// The mesh: old vertices first, with their numbers. It has the tags of the old one,
+    /// and its texture coordinates where no vertices were put in.
     pub mesh: ControlMesh,
     /// For each face the face of the old mesh that it is part of.
     pub source_faces: Vec<u32>,
@@ -102,7 +103,8 @@ pub fn repair(
         return Err(stuck(sector.vertex));
     }
     let (faces, source_faces) = sectors.emit(mesh)?;
-    let mut repaired = ControlMesh { points, faces, uv: None, ..mesh.clone() };
+    let uv = mesh.uv.as_ref().and_then(|uv| carried(uv, mesh, &faces, &source_faces));
+    let mut repaired = ControlMesh { points, faces, uv, ..mesh.clone() };
     let holes: BTreeSet<u32> = mesh.holes.iter().copied().collect();
     repaired.holes =
         (0..).zip(&source_faces).filter(|(_, source)| holes.contains(source)).map(|(f, _)| f).collect();
@@ -114,6 +116,23 @@ pub fn repair(
     let topology = sectors.check(&repaired, paths)?;
     repaired.overlaps = overlaps(&topology, meetings, &repaired.rings);
     Ok(repaired)
+}
+
+/// Texture coordinates of faces that are parts of others. `None` where a face has a vertex that its old one had not.
+fn carried(uv: &FaceVarying, mesh: &ControlMesh, faces: &FaceList, sources: &[u32]) -> Option<FaceVarying> {
+    let mut firsts = Vec::with_capacity(mesh.faces.len());
+    let mut first = 0;
+    for face in mesh.faces.iter() {
+        firsts.push(first);
+        first += face.len();
+    }
+    let index = |old: u32, v: u32| {
+        let corner = mesh.faces.face(old as usize).iter().position(|&u| u == v)?;
+        uv.indices.get(firsts[old as usize] + corner).copied()
+    };
+    let corners = faces.iter().zip(sources).flat_map(|(face, &old)| face.iter().map(move |&v| (old, v)));
+    let indices = corners.map(|(old, v)| index(old, v)).collect::<Option<_>>()?;
+    Some(FaceVarying { indices, ..uv.clone() })
 }
 
 /// Vertices that are a free spoke, a dummy port or a corner in two X-configurations.

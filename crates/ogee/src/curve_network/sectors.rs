@@ -176,7 +176,8 @@ impl<'a> Sectors<'a> {
             let new = !valid || numbers.iter().any(|&number| self.list[number].new);
             numbers.iter().for_each(|&number| self.list[number].new = new);
         }
-        while self.propagate(meetings) {}
+        let meetings: BTreeSet<u32> = meetings.iter().map(|meeting| meeting.vertex).collect();
+        while self.propagate(&meetings) {}
     }
 
     /// True if the ring of a meeting point is an X-configuration as it is.
@@ -202,7 +203,7 @@ impl<'a> Sectors<'a> {
     }
 
     /// One round of sectors that must be new because of their neighbours; true if there was any.
-    pub(super) fn propagate(&mut self, meetings: &[MeetingPorts]) -> bool {
+    pub(super) fn propagate(&mut self, meetings: &BTreeSet<u32>) -> bool {
         let topology = self.topology;
         let mut more = BTreeSet::new();
         for (&h, &(start, i)) in &self.of_corner {
@@ -233,7 +234,7 @@ impl<'a> Sectors<'a> {
         }
         for number in more.clone() {
             let v = self.list[number].vertex;
-            if meetings.iter().any(|meeting| meeting.vertex == v.0) {
+            if meetings.contains(&v.0) {
                 more.extend(&self.of_vertex[&v]);
             }
         }

@@ -29,8 +29,8 @@ pub(super) fn resolved<'a>(
     Cow::Owned(network)
 }
 
-/// The control points of a curve that is cut at some of its vertices.
-fn control(curve: &NetworkCurve, points: &[Vec3], mut stops: Vec<usize>) -> Vec<Vec3> {
+/// The control points of a curve that is cut at some of its vertices, for points that it goes through.
+pub(super) fn control(curve: &NetworkCurve, points: &[Vec3], mut stops: Vec<usize>) -> Vec<Vec3> {
     let count = points.len();
     let solved = |points: &[Vec3], closed: bool| match TargetCurve::through(points, closed) {
         Ok(curve) => curve.control().to_vec(),

@@ -65,6 +65,11 @@ pub enum NetworkWarning {
          of it or so"
     )]
     Straightened { vertex: u32, curve: String, angle_deg: f64 },
+    #[error(
+        "curve {curve} ends on the border at vertex {vertex}, where the border goes on: beside its end the border is \
+         another curve; make the vertex sharp, or the curves one"
+    )]
+    BorderEnd { vertex: u32, curve: String },
     #[error("there are choices for vertex {vertex}, but no curves meet there; take them away")]
     NoMeeting { vertex: u32 },
     #[error(
@@ -72,6 +77,10 @@ pub enum NetworkWarning {
          {distance:.6}; place it otherwise"
     )]
     NotSymmetric { vertex: u32, distance: f64 },
+    #[error(
+        "the surface has the normal wanted at vertex {vertex} with the other sign; look at what is wanted around it"
+    )]
+    NormalTurnedOver { vertex: u32 },
     #[error("{what} at vertex {vertex} follows from the rest; it may be left out")]
     ConstraintRedundant { vertex: u32, what: String },
     #[error(
@@ -97,8 +106,10 @@ impl NetworkWarning {
             NetworkWarning::CrossCurvatureMissed { .. } => "W_CROSS_CURVATURE_MISSED",
             NetworkWarning::Flattened { .. } => "W_FLATTENED",
             NetworkWarning::Straightened { .. } => "W_STRAIGHTENED",
+            NetworkWarning::BorderEnd { .. } => "W_BORDER_END",
             NetworkWarning::NoMeeting { .. } => "W_NO_MEETING",
             NetworkWarning::NotSymmetric { .. } => "W_NOT_SYMMETRIC",
+            NetworkWarning::NormalTurnedOver { .. } => "W_NORMAL_TURNED_OVER",
             NetworkWarning::ConstraintRedundant { .. } => "W_CONSTRAINT_REDUNDANT",
             NetworkWarning::UvDropped { .. } => "W_UV_DROPPED",
         }
@@ -119,8 +130,10 @@ impl NetworkWarning {
             | NetworkWarning::CrossCurvatureMissed { vertex, .. }
             | NetworkWarning::Flattened { vertex, .. }
             | NetworkWarning::Straightened { vertex, .. }
+            | NetworkWarning::BorderEnd { vertex, .. }
             | NetworkWarning::NoMeeting { vertex }
             | NetworkWarning::NotSymmetric { vertex, .. }
+            | NetworkWarning::NormalTurnedOver { vertex }
             | NetworkWarning::ConstraintRedundant { vertex, .. }
             | NetworkWarning::UvDropped { vertex } => vertex,
         }
@@ -138,7 +151,9 @@ impl NetworkWarning {
             NetworkWarning::TangentOrder { turn_deg, .. } => Some(turn_deg),
             NetworkWarning::XFold { sine, .. } => Some(sine),
             NetworkWarning::XOverlap { .. }
+            | NetworkWarning::BorderEnd { .. }
             | NetworkWarning::NoMeeting { .. }
+            | NetworkWarning::NormalTurnedOver { .. }
             | NetworkWarning::ConstraintRedundant { .. }
             | NetworkWarning::UvDropped { .. } => None,
             NetworkWarning::CrossCurvatureMissed { difference, .. } => Some(difference),

@@ -101,8 +101,7 @@ fn at_meeting(level: &Level, points: &[Vec3], slice: Slice) -> LimitVertex {
         );
     }
     let kind = Kind::Meeting { ports: halfedges.len() as u32 / 2, port_first, t: slice.t.to_bits() };
-    let normal = (0..halfedges.len()).fold(Vec3::ZERO, |sum, k| {
-        let [first, second] = kind.meeting_tangents(&ring, k);
+    let normal = kind.meeting_tangents(&ring).fold(Vec3::ZERO, |sum, [first, second]| {
         sum + first.cross(second).normalized().unwrap_or(Vec3::ZERO)
     });
     LimitVertex { position, normal: normal.normalized() }

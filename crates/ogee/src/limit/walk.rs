@@ -156,11 +156,12 @@ impl Walk {
 
     /// True if all quads at a meeting of curves have this normal there, to 1e-9.
     pub(super) fn agree_on(&self, normal: Vec3, basis: &ChainBasis) -> bool {
-        let Kind::Meeting { ports, .. } = basis.kind else { return true };
+        if !matches!(basis.kind, Kind::Meeting { .. }) {
+            return true;
+        }
         let inner = &self.ring[..basis.kind.inner_count()];
         let ring: Vec<Vec3> = inner[1..].iter().map(|&p| narrow(p) - narrow(inner[0])).collect();
-        (0..2 * ports as usize).all(|k| {
-            let [first, second] = basis.kind.meeting_tangents(&ring, k);
+        basis.kind.meeting_tangents(&ring).all(|[first, second]| {
             unit_normal(first, second).is_some_and(|other| other.distance(normal) <= 1e-9)
         })
     }

@@ -97,14 +97,24 @@ impl Kind {
         self.inner_count() + 5 + usize::from(self.continues_below()) + usize::from(self.continues_left())
     }
 
-    /// Where curves meet, the two tangents of a quad: the one with number `k` counter-clockwise from the quad that is looked
-    /// from. `ring` has the points around the vertex, relative to it.
-    pub(crate) fn meeting_tangents(self, ring: &[Vec3], k: usize) -> [Vec3; 2] {
-        let Kind::Meeting { ports, port_first, t } = self else { return [Vec3::ZERO; 2] };
-        let weights = meeting_tangents(ports as usize, port_first == k.is_multiple_of(2), f64::from_bits(t));
-        weights.map(|weights| {
-            let around = ring.iter().cycle().skip(2 * k);
-            weights[1..].iter().zip(around).fold(Vec3::ZERO, |sum, (&weight, &p)| sum + weight * p)
+    /// Where curves meet, the two tangents of each quad, counter-clockwise from the quad that is looked from; none elsewhere.
+    /// `ring` has the points around the vertex, relative to it.
+    pub(crate) fn meeting_tangents(self, ring: &[Vec3]) -> impl Iterator<Item = [Vec3; 2]> + '_ {
+        let (ports, port_first, t) = match self {
+            Kind::Meeting { ports, port_first, t } => (ports as usize, port_first, f64::from_bits(t)),
+            _ => (0, false, 0.0),
+        };
+        // Quads take turns: port first, free spoke first.
+        let weights = [port_first, !port_first].map(|port_first| match ports {
+            0 => [Vec::new(), Vec::new()],
+            _ => meeting_tangents(ports, port_first, t),
+        });
+        (0..2 * ports).map(move |k| {
+            [0, 1].map(|which| {
+                let around = ring.iter().cycle().skip(2 * k);
+                let terms = weights[k % 2][which][1..].iter().zip(around);
+                terms.fold(Vec3::ZERO, |sum, (&weight, &p)| sum + weight * p)
+            })
         })
     }
 }

@@ -152,9 +152,8 @@ fn spokes(nodes: &[Grid<Vec3>], t: f64) -> Vec<Spoke> {
         nodes.iter().flat_map(|nodes| [nodes[(1, 0)] - apex, nodes[(1, 1)] - apex]).collect();
     let kind = Kind::Meeting { ports: nodes.len() as u32 / 2, port_first: true, t: t.to_bits() };
     // The nodes are half a cell apart.
-    let spoke =
-        |k: usize| Spoke { tangent: 2.0 * kind.meeting_tangents(&ring, k)[0], is_port: k.is_multiple_of(2) };
-    (0..nodes.len()).map(spoke).collect()
+    let tangents = kind.meeting_tangents(&ring).enumerate();
+    tangents.map(|(k, [first, _])| Spoke { tangent: 2.0 * first, is_port: k.is_multiple_of(2) }).collect()
 }
 
 /// The least sine of the angle between neighbouring spokes, and the least length of a free one against the ports beside it,
