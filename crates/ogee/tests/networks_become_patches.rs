@@ -11,21 +11,23 @@ mod networks;
 
 use golden::{index, list, points};
 use networks::{any_network, cases, mesh, prepared, walks};
-use ogee::convert::{
-    Method, Options, Packing, Part, UpAxis, largest_distance_to_edges, to_part,
-};
+use ogee::convert::{Method, Options, Packing, Part, UpAxis, largest_distance_to_edges, to_part};
 use ogee::curve_network::{CurveNetwork, TargetCurve, default_parameter, embed};
 use ogee::nurbs::NurbsSurface;
 use ogee::pccm::{self, Cap};
-use ogee::{
-    ControlMesh, Corner, FaceId, Level, LimitSurface, PatchTable, Sharpness, Vec3, shapes,
-};
+use ogee::{ControlMesh, Corner, FaceId, Level, LimitSurface, PatchTable, Sharpness, Vec3, shapes};
 use proptest::prelude::*;
 
 const METHODS: [Method; 2] = [Method::Pccm, Method::PccmFirst];
 
-/// Gaps, tangent planes and, where there are any, curves.
-fn check(name: &str, mesh: &ControlMesh, part: &Part, curves: &[TargetCurve]) {
+/// Degrees between normals where tangents are in a plane but for rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// The same where they may be out of it by as much as counts as lying in it.
+const FLAT: f64 = 1e-7;
+
+/// Gaps, angles up to so many degrees and, where there are any, curves.
+fn check(name: &str, mesh: &ControlMesh, part: &Part, curves: &[TargetCurve], angle: f64) {
     let (report, size) = (&part.report, mesh.size());
     let off = largest_distance_to_edges(part, curves, UpAxis::Z) / size;
     println!(
@@ -38,7 +40,7 @@ fn check(name: &str, mesh: &ControlMesh, part: &Part, curves: &[TargetCurve]) {
         report.notes.iter().map(|note| note.code).collect::<Vec<_>>(),
     );
     assert!(report.max_gap <= 1e-13 * size, "{name}: gap {:e}", report.max_gap);
-    assert!(report.max_normal_angle_deg <= 1e-9, "{name}: {:e} degrees", report.max_normal_angle_deg);
+    assert!(report.max_normal_angle_deg <= angle, "{name}: {:e} degrees", report.max_normal_angle_deg);
     assert!(off <= 1e-12, "{name}: curves are {off:e} off the edges");
 }
 
@@ -74,7 +76,7 @@ fn golden_networks_convert() {
             for packing in [Packing::Unpacked, Packing::Packed] {
                 let options = Options { method, packing, seams: seams.clone(), ..Options::default() };
                 let part = to_part(&mesh, &options).unwrap();
-                check(&format!("{name} {method:?} {packing:?}"), &mesh, &part, &curves);
+                check(&format!("{name} {method:?} {packing:?}"), &mesh, &part, &curves, ROUNDING);
                 let plane = !["crossing-pinned", "cube-wireframe", "x3-not-coplanar"].contains(&&name[..]);
                 assert_eq!(plane, part.report.notes.iter().all(|note| note.code != "meeting_not_smooth"));
             }
@@ -83,7 +85,7 @@ fn golden_networks_convert() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(120))]
+    #![proptest_config(ProptestConfig::with_cases(100))]
     #[test]
     fn random_networks_convert((kind, seeds, forced) in any_network()) {
         let cage = mesh(kind);
@@ -104,7 +106,7 @@ proptest! {
         for &packing in some {
             let options = Options { method, packing, seams: seams.clone(), ..Options::default() };
             let part = to_part(&embedding.mesh, &options).unwrap();
-            check(&name, &embedding.mesh, &part, &curves);
+            check(&name, &embedding.mesh, &part, &curves, FLAT);
         }
     }
 }
@@ -117,7 +119,7 @@ fn any_cage_with_meetings_converts() {
         }
         for method in METHODS {
             let part = to_part(&mesh, &Options { method, ..Options::default() }).unwrap();
-            check(&format!("{name} {method:?}"), &mesh, &part, &[]);
+            check(&format!("{name} {method:?}"), &mesh, &part, &[], ROUNDING);
         }
     }
 }
@@ -166,9 +168,11 @@ fn regularity(mesh: &ControlMesh, level: u32) -> Option<[f64; 2]> {
 fn star(seed: u64) -> ControlMesh {
     let ports = 2 + (seed % 5) as u32;
     let mut next = cages::noise(seed);
-    let t = [default_parameter(ports as usize), 0.5 * (next() + 0.5).max(0.1)][usize::from(seed % 3 == 2 && ports > 2)];
+    let t = [default_parameter(ports as usize), 0.5 * (next() + 0.5).max(0.1)]
+        [usize::from(seed % 3 == 2 && ports > 2)];
     let mut mesh = cages::meeting(shapes::disk(2 * ports, 3), 0, 1, t);
-    let faces: Vec<Vec<u32>> = mesh.faces.iter().filter(|face| face.contains(&0)).map(<[u32]>::to_vec).collect();
+    let faces: Vec<Vec<u32>> =
+        mesh.faces.iter().filter(|face| face.contains(&0)).map(<[u32]>::to_vec).collect();
     let own = &mesh.meetings[0].ports;
     let is_free = |v: u32| faces.iter().any(|face| face[1] == v || face[3] == v) && !own.contains(&v);
     let slices: Vec<u32> = faces.concat();
@@ -195,7 +199,7 @@ fn caps_are_as_regular_as_the_limit() {
             assert!(own > 0.3 * limit.min(0.5), "{seed}: {own} {limit}");
         }
         let part = to_part(&mesh, &Options::default()).unwrap();
-        check(&format!("star {seed}"), &mesh, &part, &[]);
+        check(&format!("star {seed}"), &mesh, &part, &[], ROUNDING);
     }
     assert!(seen > 200, "{seen}");
     for (name, document) in cases() {
@@ -216,7 +220,11 @@ fn deviation_falls_with_the_level() {
         let at = |level: u32| {
             let options = Options { level: Some(level), packing: Packing::Unpacked, ..Options::default() };
             let report = to_part(&mesh, &options).unwrap().report;
-            assert!(report.max_normal_angle_deg < 1e-8, "{name}, level {level}: {:e}", report.max_normal_angle_deg);
+            assert!(
+                report.max_normal_angle_deg < 1e-8,
+                "{name}, level {level}: {:e}",
+                report.max_normal_angle_deg
+            );
             report.max_deviation_relative
         };
         let figures: Vec<f64> = (2..=5).map(at).collect();
@@ -268,9 +276,12 @@ fn closed_cages_become_solids() {
         for method in METHODS {
             let volumes = [Packing::Packed, Packing::Unpacked].map(|packing| {
                 let part = to_part(&mesh, &Options { method, packing, ..Options::default() }).unwrap();
-                check(&format!("lid {seed} {method:?} {packing:?}"), &mesh, &part, &[]);
+                check(&format!("lid {seed} {method:?} {packing:?}"), &mesh, &part, &[], ROUNDING);
                 let report = &part.report;
-                assert_eq!((report.solids, report.shells, report.closed, report.sharp_edges), (1, 1, true, 0));
+                assert_eq!(
+                    (report.solids, report.shells, report.closed, report.sharp_edges),
+                    (1, 1, true, 0)
+                );
                 report.volume.unwrap()
             });
             assert!((volumes[0] - volumes[1]).abs() < 1e-12 * volumes[0]);

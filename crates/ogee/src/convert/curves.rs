@@ -105,13 +105,18 @@ mod tests {
     #[test]
     fn points_of_a_curve_are_on_it() {
         for closed in [false, true] {
-            let at = |k: i32| Vec3::new(f64::cos(f64::from(k)), f64::sin(1.1 * f64::from(k)), 0.1 * f64::from(k));
+            let at =
+                |k: i32| Vec3::new(f64::cos(f64::from(k)), f64::sin(1.1 * f64::from(k)), 0.1 * f64::from(k));
             let curve = TargetCurve::new((0..7).map(at).collect(), closed).unwrap();
             let nurbs = curve.to_nurbs();
             let edge = Edge::new(&nurbs);
             for k in 0..=100 {
                 let point = curve.point(f64::from(k) / 100.0 * curve.spans() as f64);
-                assert!(edge.least_distance(point) == 0.0 && edge.distance(point) < 1e-14, "{closed} {k} {}", edge.distance(point));
+                assert!(
+                    edge.least_distance(point) == 0.0 && edge.distance(point) < 1e-14,
+                    "{closed} {k} {}",
+                    edge.distance(point)
+                );
             }
             let aside = Vec3::new(0.0, 0.0, -2.0);
             assert!((edge.distance(curve.point(0.0) + aside) - 2.0).abs() < 0.2);

@@ -25,9 +25,9 @@ impl NurbsCurve {
     pub(crate) fn jet(&self, t: f64) -> [Vec3; 3] {
         let basis = self.knots.basis(t);
         let points = &self.points[basis.first..=basis.first + self.knots.degree()];
-        basis.values.map(|values| {
-            points.iter().zip(values).fold(Vec3::ZERO, |sum, (&p, weight)| sum + weight * p)
-        })
+        basis
+            .values
+            .map(|values| points.iter().zip(values).fold(Vec3::ZERO, |sum, (&p, weight)| sum + weight * p))
     }
 
     /// The same curve the other way, over the same domain.

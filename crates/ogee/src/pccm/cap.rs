@@ -67,10 +67,7 @@ fn functional(k: usize) -> Functional {
         _ => (4, -1.0, CAP - 1 - k),
     };
     let [first, second] = [[0.0, 0.0], [side / 5.0, 0.0], [side * 2.0 / 5.0, 1.0 / 20.0]][order];
-    Functional {
-        centre,
-        weights: std::array::from_fn(|x| VALUE[x] + first * SLOPE[x] + second * BEND[x]),
-    }
+    Functional { centre, weights: std::array::from_fn(|x| VALUE[x] + first * SLOPE[x] + second * BEND[x]) }
 }
 
 /// The nodes of the next finer mesh over all sectors, counter-clockwise; sector 0 begins with a port.
@@ -141,18 +138,30 @@ pub(super) fn nets(nodes: &Sectors<'_>, spokes: &[Spoke], shares: Option<&[Share
             let before = (i + n - 1) % n;
             let neighbours = [spokes[before].tangent, spokes[(i + 1) % n].tangent];
             let [end, change] = nodes.across_first(i);
-            let after = Side { weight: all_shares[i].skew, start: neighbours[1], twist: twists[i], end: [end, change] };
-            let before =
-                Side { weight: -all_shares[i].skew, start: neighbours[0], twist: twists[before], end: [-end, -change] };
+            let after = Side {
+                weight: all_shares[i].skew,
+                start: neighbours[1],
+                twist: twists[i],
+                end: [end, change],
+            };
+            let before = Side {
+                weight: -all_shares[i].skew,
+                start: neighbours[0],
+                twist: twists[before],
+                end: [-end, -change],
+            };
             [after, before].map(|side| curves[i].second_row(all_shares[i], &side))
         })
         .collect();
-    (0..n).map(|i| net(nodes, i, [&curves[i], &curves[(i + 1) % n]], [rows[i][0], rows[(i + 1) % n][1]])).collect()
+    (0..n)
+        .map(|i| net(nodes, i, [&curves[i], &curves[(i + 1) % n]], [rows[i][0], rows[(i + 1) % n][1]]))
+        .collect()
 }
 
 /// One sector from the curves of its two spokes and the rows beside them.
 fn net(nodes: &Sectors<'_>, i: usize, curves: [&Curve; 2], rows: [[Vec3; 4]; 2]) -> Grid<Vec3> {
-    let mut net = Grid::from_fn(CAP, CAP, |k, l| if k < 3 && l < 3 { Vec3::ZERO } else { nodes.limit(i, k, l) });
+    let mut net =
+        Grid::from_fn(CAP, CAP, |k, l| if k < 3 && l < 3 { Vec3::ZERO } else { nodes.limit(i, k, l) });
     for k in 0..CAP {
         net[(k, 0)] = curves[0].row[k];
         net[(0, k)] = curves[1].row[k];
@@ -182,7 +191,8 @@ fn blended_twist(nodes: &Sectors<'_>, i: usize, apex: Vec3, curves: &[Curve]) ->
     let [along_first, _] = nodes.across_first((i + 1) % n).map(|x| -x);
     let value = Functional { centre: 2, weights: VALUE };
     let corner = nodes.apply(i, &value, &value);
-    (along_second - second.tangent) + (along_first - first.tangent) - (corner - first.end() - second.end() + apex)
+    (along_second - second.tangent) + (along_first - first.tangent)
+        - (corner - first.end() - second.end() + apex)
 }
 
 /// One side of a spoke.
@@ -208,7 +218,9 @@ impl Curve {
     fn new(nodes: &Sectors<'_>, i: usize, apex: Vec3, spoke: Spoke) -> Curve {
         let tangent = spoke.tangent;
         let mut row: [Vec3; CAP] =
-            std::array::from_fn(|k| if k < 3 { apex + k as f64 / 5.0 * tangent } else { nodes.limit(i, k, 0) });
+            std::array::from_fn(
+                |k| if k < 3 { apex + k as f64 / 5.0 * tangent } else { nodes.limit(i, k, 0) },
+            );
         if !spoke.is_port {
             row[2] = quartic_second(|k| row[k]);
         }
@@ -254,7 +266,8 @@ impl Curve {
     fn second_row(&self, share: Share, side: &Side) -> [Vec3; 4] {
         let start_weight = 1.0 + side.weight;
         let start = (side.start - share.bend * self.tangent) / start_weight;
-        let slope = side.twist + 2.0 * side.weight * start - share.fall() * self.tangent - share.bend * self.bend();
+        let slope =
+            side.twist + 2.0 * side.weight * start - share.fall() * self.tangent - share.bend * self.bend();
         let [end, change] = side.end;
         let transversal = [start, start + slope / start_weight / 3.0, end - change / 3.0, end];
         let own = product(&[start_weight, 1.0, 1.0], &transversal);
@@ -274,7 +287,8 @@ fn product(factor: &[f64], of: &[Vec3]) -> Vec<Vec3> {
     (0..=m + n)
         .map(|k| {
             let terms = (k.saturating_sub(n)..=k.min(m)).map(|i| (i, k - i));
-            let sum = terms.fold(Vec3::ZERO, |sum, (i, j)| sum + binomial(m, i) * binomial(n, j) * factor[i] * of[j]);
+            let sum = terms
+                .fold(Vec3::ZERO, |sum, (i, j)| sum + binomial(m, i) * binomial(n, j) * factor[i] * of[j]);
             sum / binomial(m + n, k)
         })
         .collect()

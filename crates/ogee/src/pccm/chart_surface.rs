@@ -167,7 +167,11 @@ impl<'a> Pieces<'a> {
         }
         let of = |place: &Place<5>, k: usize| {
             let [low, high] = place.span;
-            Place::<3> { arguments: std::array::from_fn(|i| if i < k { high } else { low }), span: place.span, cell: place.cell }
+            Place::<3> {
+                arguments: std::array::from_fn(|i| if i < k { high } else { low }),
+                span: place.span,
+                cell: place.cell,
+            }
         };
         let bezier = Grid::from_fn(4, 4, |i, j| self.coefficient(chart, &of(u, i), &of(v, j)));
         let half: [Vec3; 4] = std::array::from_fn(|i| quintic_polar(bezier.row(i), v));

@@ -126,7 +126,8 @@ mod tests {
                 Share { skew, bend: 0.3 + 0.1 * i as f64, slope: 0.0 }
             })
             .collect();
-        let right: Vec<Vec3> = (0..6).map(|i| sign(i) * tangents[(i + 2) % 6] + Vec3::new(0.0, 0.0, 0.3)).collect();
+        let right: Vec<Vec3> =
+            (0..6).map(|i| sign(i) * tangents[(i + 2) % 6] + Vec3::new(0.0, 0.0, 0.3)).collect();
         let spread = [Spread::Slope, Spread::Bend].repeat(3);
         let changes = changes(&shares, &tangents, &spread, &right);
         let changed: Vec<Vec3> = (0..6)

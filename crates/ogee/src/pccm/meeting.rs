@@ -37,8 +37,7 @@ impl Cap {
     pub(crate) fn polar(&self, cell: (usize, usize), u: &[f64; 5], v: &[f64; 5]) -> Vec3 {
         let knots = Cap::knots();
         let span = |cell: usize| knots.span(cell as f64 + 0.5);
-        let column: Vec<Vec3> =
-            (0..CAP).map(|i| polar(&knots, span(cell.1), self.net.row(i), v)).collect();
+        let column: Vec<Vec3> = (0..CAP).map(|i| polar(&knots, span(cell.1), self.net.row(i), v)).collect();
         polar(&knots, span(cell.0), &column, u)
     }
 }
@@ -101,9 +100,8 @@ pub(crate) fn caps(base: &Level, fine: &Level, fine_points: &[Vec3], level: u32)
     let cells = Cells::new(base, fine, level);
     let last = (1usize << level) - 1;
     let side = NODES / 2;
-    let seen = |h: HalfedgeId| {
-        (0..side * side).map(move |cell| view(h.index() % 4, cell / side, cell % side, last))
-    };
+    let seen =
+        |h: HalfedgeId| (0..side * side).map(move |cell| view(h.index() % 4, cell / side, cell % side, last));
     let halfedges = || fans.iter().flat_map(|fan| &fan.halfedges);
     let faces: Vec<FaceId> = halfedges()
         .flat_map(|&h| seen(h).map(move |(i, j)| (h, i, j)))
@@ -135,7 +133,11 @@ pub(crate) fn caps(base: &Level, fine: &Level, fine_points: &[Vec3], level: u32)
             kinks.push(Kink { vertex: fan.vertex, angle: shares.is_some().then_some(angle) });
         }
         let nets = cap::nets(&Sectors(&nodes), &spokes, shares.as_deref());
-        caps.extend(fan.halfedges.iter().zip(nets).map(|(h, net)| Cap { quad: h.0 / 4, corner: h.0 % 4, net }));
+        caps.extend(fan.halfedges.iter().zip(nets).map(|(h, net)| Cap {
+            quad: h.0 / 4,
+            corner: h.0 % 4,
+            net,
+        }));
     }
     (caps, kinks)
 }
@@ -146,10 +148,12 @@ const FLAT: f64 = 1e-9;
 /// Where the spokes lead: the tangents of the curves, and where the free spokes lead in the end.
 fn spokes(nodes: &[Grid<Vec3>], t: f64) -> Vec<Spoke> {
     let apex = nodes[0][(0, 0)];
-    let ring: Vec<Vec3> = nodes.iter().flat_map(|nodes| [nodes[(1, 0)] - apex, nodes[(1, 1)] - apex]).collect();
+    let ring: Vec<Vec3> =
+        nodes.iter().flat_map(|nodes| [nodes[(1, 0)] - apex, nodes[(1, 1)] - apex]).collect();
     let kind = Kind::Meeting { ports: nodes.len() as u32 / 2, port_first: true, t: t.to_bits() };
     // The nodes are half a cell apart.
-    let spoke = |k: usize| Spoke { tangent: 2.0 * kind.meeting_tangents(&ring, k)[0], is_port: k.is_multiple_of(2) };
+    let spoke =
+        |k: usize| Spoke { tangent: 2.0 * kind.meeting_tangents(&ring, k)[0], is_port: k.is_multiple_of(2) };
     (0..nodes.len()).map(spoke).collect()
 }
 

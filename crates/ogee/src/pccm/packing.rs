@@ -117,7 +117,8 @@ impl<'a> Traces<'a> {
                 self.separate(h);
                 let end = topology.target(h);
                 let goes_on = topology.ring(end).all(|h| regular(h) && !self.base.is_sharp(h));
-                let across = topology.twin(topology.next(h)).filter(|_| goes_on && !topology.is_boundary(end));
+                let across =
+                    topology.twin(topology.next(h)).filter(|_| goes_on && !topology.is_boundary(end));
                 let Some(across) = across else { break };
                 h = topology.next(across);
             }
