@@ -288,3 +288,26 @@ fn closed_cages_become_solids() {
         }
     }
 }
+
+#[test]
+fn irregular_vertices_next_to_a_meeting_are_given_room() {
+    // Two cubes side by side: in the middle of an edge of theirs four faces meet, at its ends three.
+    let mesh = cages::voxels(&[[0, 0, 0], [1, 0, 0]]);
+    let at = |p: [f64; 3]| mesh.points.iter().position(|&q| q == Vec3::from(p)).unwrap() as u32;
+    let (centre, port) = (at([1.0, 0.0, 0.0]), at([0.0, 0.0, 0.0]));
+    let mut mesh = cages::meeting(mesh.clone(), centre, port, 0.5);
+    // So that both tangents are in one line, and unequal.
+    mesh.points[centre as usize] = Vec3::new(0.8, 1.0 / 6.0, 1.0 / 6.0);
+    for level in [3, 4] {
+        for method in METHODS {
+            for packing in [Packing::Packed, Packing::Unpacked] {
+                let wanted = (level > 3).then_some(level);
+                let part = to_part(&mesh, &Options { method, packing, level: wanted, ..Options::default() })
+                    .unwrap();
+                check(&format!("two cubes {method:?} {packing:?}"), &mesh, &part, &[], ROUNDING);
+                let report = &part.report;
+                assert_eq!((report.level, report.solids, report.sharp_edges), (level, 1, 0));
+            }
+        }
+    }
+}
