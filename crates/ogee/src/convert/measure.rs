@@ -6,7 +6,8 @@ use crate::nurbs::{EdgeUse, KnotVector, NurbsSurface, Shell, ShellFace, Side, ga
 /// Steps between two knots of either side, along an edge.
 const STEPS_PER_SPAN: usize = 8;
 
-/// Sine of the angle between `du` and `dv` below which a corner counts as singular: its normal is noise.
+/// Of the square of the longer one of `du` and `dv`, the area between them below which a point counts as singular: its
+/// normal is noise. So it is where they are parallel, and where one of them vanishes, as at the cusp of a folded cage.
 const SINGULAR: f64 = 1e-9;
 
 /// What is measured over the shared edges of a shell.
@@ -70,7 +71,7 @@ fn across(a: &ShellFace, first: EdgeUse, b: &ShellFace, second: EdgeUse, smooth:
             continue;
         }
         let (n, m) = (here.du.cross(here.dv), there.du.cross(there.dv));
-        let regular = |n: Vec3, du: Vec3, dv: Vec3| n.length() > SINGULAR * du.length() * dv.length();
+        let regular = |n: Vec3, du: Vec3, dv: Vec3| n.length() > SINGULAR * du.dot(du).max(dv.dot(dv));
         if regular(n, here.du, here.dv) && regular(m, there.du, there.dv) {
             found.max_normal_angle = found.max_normal_angle.max(n.angle(m));
         }

@@ -86,10 +86,8 @@ pub enum ConvertError {
     /// The method has no rule for it.
     #[error(transparent)]
     Pccm(#[from] PccmError),
-    /// No method has a rule where curves meet.
-    #[error(
-        "curves meet at vertex {vertex}, where no method has patches; take the meeting away, or refine the cage instead"
-    )]
+    /// The quintic method has no patches where curves meet.
+    #[error("bi5 has no patches where curves meet, as at vertex {vertex}; use the method pccm")]
     Meeting {
         /// The vertex.
         vertex: u32,

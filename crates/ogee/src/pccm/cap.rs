@@ -115,9 +115,8 @@ pub(super) fn nets(nodes: &Sectors<'_>, spokes: &[Spoke], shares: Option<&[Share
     let n = spokes.len();
     let apex = nodes.0[0][(0, 0)];
     let mut curves: Vec<Curve> = (0..n).map(|i| Curve::new(nodes, i, apex, spokes[i])).collect();
-    let wanted: Vec<Vec3> = (0..n).map(|i| blended_twist(nodes, i, apex, &curves)).collect();
+    let mut twists: Vec<Vec3> = (0..n).map(|i| blended_twist(nodes, i, apex, &curves)).collect();
     let mut all_shares = vec![Share::default(); n];
-    let mut twists = wanted;
     if let Some(shares) = shares {
         all_shares.copy_from_slice(shares);
         let tangents: Vec<Vec3> = spokes.iter().map(|spoke| spoke.tangent).collect();

@@ -5,6 +5,8 @@
 //!
 //! The recipe, one file per pass: read the layered net of each quad off the refined level and insert knots (`net`),
 //! place limit points and tangents at irregular corners (`corner`), then edge curves, second rows and twists (`edge`).
+//! Where curves of a network meet the first cells are caps of degree five: where they are and what their spokes are
+//! (`meeting`), their rows (`cap`), the conditions around a meeting (`closing`).
 
 mod bi5;
 mod cap;
