@@ -92,6 +92,8 @@ pub(super) fn shape_rows(
         return missed;
     }
     let busy = busy_vertices(plan, sides, decided);
+    let on_border = plan.segments.iter().filter(|segment| segment.along_border);
+    let rim: BTreeSet<u32> = on_border.flat_map(|segment| segment.vertices.iter().copied()).collect();
     let crosses = |v: u32| plan.smooth_crossings.binary_search(&v).is_ok();
     for (number, (segment, wants)) in plan.segments.iter().zip(&wants).enumerate() {
         let count = segment.vertices.len();
@@ -117,7 +119,7 @@ pub(super) fn shape_rows(
         };
         let kept: Vec<bool> = (0..count).map(kept).collect();
         for at in (0..count).filter(|&i| kept[i] && wants.any(i)) {
-            let crowded = !segment.along_border && !special(at);
+            let crowded = !rim.contains(&segment.vertices[at]) && !special(at);
             missed.push(Missed {
                 segment: number,
                 at,
