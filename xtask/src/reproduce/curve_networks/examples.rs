@@ -176,7 +176,7 @@ pub(super) fn other_networks() -> Result<Vec<Example>> {
 
 /// A network on an irregular polyhedron: the polyhedron, the repaired cage, the surface and its lines.
 pub(super) fn repair() -> Result<(Image, Embedding, ControlMesh)> {
-    let mesh = irregular(80, 22);
+    let mesh = irregular(50, 14);
     let body = Body::new(mesh.clone())?;
     let from = Vec3::new(0.5, -0.75, 0.55);
     let topology = Topology::new(&mesh)?;
@@ -186,14 +186,14 @@ pub(super) fn repair() -> Result<(Image, Embedding, ControlMesh)> {
         toward(a).total_cmp(&toward(b))
     });
     let front = front.context("some vertex has six edges")?;
-    let paths = walks(&mesh, front, 2, 4)?;
+    let paths = walks(&mesh, front, 2, 3)?;
     let curve = |(number, path): (usize, &Vec<u32>)| {
         let mut curve = body.curve(path, false, &[front]);
         curve.name = format!("c{number}");
         curve
     };
     let options =
-        NetworkOptions { flatten: true, pre_split: PreSplit::Fixed(1), ..NetworkOptions::default() };
+        NetworkOptions { flatten: true, pre_split: PreSplit::Fixed(2), ..NetworkOptions::default() };
     let curves = paths.iter().enumerate().map(curve).collect();
     let embedding = embed(&CurveNetwork { curves, options, ..CurveNetwork::default() }, &mesh)?;
     let shot = Shot { from, ..closed() };

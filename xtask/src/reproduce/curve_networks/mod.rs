@@ -28,7 +28,7 @@ pub(crate) fn write(root: &Path) -> Result<Vec<String>> {
     fs::create_dir_all(&folder)?;
     let mut page = Page { folder, text: String::new(), log: Vec::new() };
     page.text += INTRODUCTION;
-    page.text += "## Curves through one point\n\n";
+    page.text += ONE_POINT;
     for example in examples::through_one_point()? {
         page.example(&example)?;
     }
@@ -67,11 +67,18 @@ flattened balls were given shapes that have none there either.
 
 ";
 
+const ONE_POINT: &str = "\
+## Curves through one point
+
+With twelve ports the faces around the point are narrow, and stripes are ragged there for some faces; they are smooth nearer to the point.
+
+";
+
 const REPAIR: &str = "\
 ## An irregular polyhedron
 
 Triangles and quadrangles, and paths on it that know nothing of them. Repair puts quads along the paths and around the points where
-they meet and end; the rest of the polyhedron stays as it is. Above: the polyhedron and the repaired cage, with the paths; below: the surface.
+they meet and end; the rest is split like any cage. Above: the polyhedron and the repaired cage, with the paths; below: the surface.
 
 ";
 
