@@ -1,6 +1,6 @@
 //! Chores of the workspace. `models [DIR]` writes the shipped cages, `bench` times whole commands, `bench limit`
-//! evaluation beside other programs; `bench-worker` is a part of that. `reproduce interrogation` makes a paper's figures and
-//! tables again, `bless` the pictures that tests compare with.
+//! evaluation beside other programs; `bench-worker` is a part of that. `reproduce interrogation` and
+//! `reproduce curve-networks` make papers' figures and tables again, `bless` the pictures that tests compare with.
 
 mod bench;
 mod models;
@@ -33,6 +33,12 @@ fn main() -> Result<()> {
             }
             Ok(())
         }
+        ["reproduce", "curve-networks"] => {
+            for line in reproduce::curve_networks::write(&root())? {
+                println!("{line}");
+            }
+            Ok(())
+        }
         ["bless"] => {
             let mut command = std::process::Command::new(env!("CARGO"));
             command.args(["test", "--package", "ogee-render", "--test", "pictures_stay_as_they_were_judged"]);
@@ -46,7 +52,9 @@ fn main() -> Result<()> {
             Ok(())
         }
         _ => {
-            bail!("usage: cargo xtask models [DIR] | bench [limit [TASK]] | reproduce interrogation | bless")
+            bail!(
+                "usage: cargo xtask models [DIR] | bench [limit [TASK]] | reproduce interrogation|curve-networks | bless"
+            )
         }
     }
 }

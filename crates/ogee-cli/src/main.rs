@@ -23,6 +23,7 @@ mod addresses;
 mod arguments;
 mod cage;
 mod commands;
+mod curves;
 mod drawing;
 mod error;
 mod evaluation;

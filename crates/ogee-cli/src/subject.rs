@@ -51,12 +51,22 @@ fn is_part(bytes: &[u8]) -> bool {
 impl Subject {
     /// Reads a cage, or a part in JSON.
     pub(crate) fn read(arguments: &CageArguments) -> Result<Subject, Failure> {
-        let start = Instant::now();
         let (name, format, bytes) = arguments.load()?;
-        if format == CageFormat::Json && is_part(&bytes) {
+        Subject::parse(arguments, name, format, &bytes)
+    }
+
+    /// The cage or the part in these bytes.
+    pub(crate) fn parse(
+        arguments: &CageArguments,
+        name: String,
+        format: CageFormat,
+        bytes: &[u8],
+    ) -> Result<Subject, Failure> {
+        let start = Instant::now();
+        if format == CageFormat::Json && is_part(bytes) {
             let refused =
                 |code, message: String| Failure::refused(vec![Finding::in_file(code, message, &name)], 0);
-            let patches = ogee_formats::patches::read(&bytes)
+            let patches = ogee_formats::patches::read(bytes)
                 .map_err(|error| refused(error.code(), error.to_string()))?;
             let read_seconds = start.elapsed().as_secs_f64();
             let start = Instant::now();
@@ -65,7 +75,7 @@ impl Subject {
             let prepare_seconds = start.elapsed().as_secs_f64();
             return Ok(Subject { name, kind: Kind::Patches(Box::new(view)), read_seconds, prepare_seconds });
         }
-        let cage = arguments.parse(name, format, &bytes)?;
+        let cage = arguments.parse(name, format, bytes)?;
         let read_seconds = start.elapsed().as_secs_f64();
         let start = Instant::now();
         let level = Level::new(cage.mesh()).map_err(|error| cage.refused(&error.defects))?;

@@ -139,6 +139,52 @@ fn pictures_are_the_same_on_any_number_of_threads() {
     assert_eq!(folder.read("1.png"), folder.read("2.png"));
 }
 
+#[test]
+fn curves_are_drawn_over_any_style_where_they_are_seen() {
+    let folder = Folder::with_cube();
+    folder.write("belt.obj", "o belt\nl 1 2 4 3 1\n");
+    folder.ogee("network cube.obj --curves belt.obj -o belt.json").expect(0);
+    let draw = |options: &str| {
+        folder.ogee(&format!("render belt.json {options} --size 80x80 -o a.png --device cpu")).expect(0);
+        pixels(&folder.read("a.png"))
+    };
+    // The belt is round and low: within this distance of the axis, seen from below, none of it is.
+    for style in ["shaded", "reflection", "mean"] {
+        let below = format!("--eye 0,0,-9 --at 0,0,0 --up 0,1,0 --style {style}");
+        let (plain, with) = (draw(&below), draw(&format!("{below} --curves")));
+        let changed: Vec<usize> =
+            (0..80 * 80).filter(|i| plain[4 * i..4 * i + 4] != with[4 * i..4 * i + 4]).collect();
+        assert!(changed.len() > 100, "{style}");
+        let from_axis = |i: usize| ((i % 80) as f64 - 39.5).hypot((i / 80) as f64 - 39.5);
+        let (least, most) = changed
+            .iter()
+            .fold((80.0_f64, 0.0_f64), |(least, most), &i| (least.min(from_axis(i)), most.max(from_axis(i))));
+        assert!(least > 8.0 && most - least < 6.0, "{style}: from {least} to {most} pixels");
+        let above = format!("--eye 0,0,9 --at 0,0,0 --up 0,1,0 --style {style}");
+        assert_eq!(draw(&above), draw(&format!("{above} --curves")), "the body is before them");
+    }
+    // Beside, each file has its own; a part has none.
+    folder.ogee("convert cube.obj -o part.json").expect(0);
+    let beside = "render belt.json --beside part.json --size 40x40 --device cpu";
+    folder.ogee(&format!("{beside} -o plain.png")).expect(0);
+    folder.ogee(&format!("{beside} --curves -o with.png")).expect(0);
+    let [plain, with] = ["plain.png", "with.png"].map(|name| pixels(&folder.read(name)));
+    let differ = |column: usize| {
+        (0..40).any(|row| {
+            let at = 4 * (80 * row + column);
+            plain[at..at + 4] != with[at..at + 4]
+        })
+    };
+    assert!((0..40).any(differ) && !(40..80).any(differ));
+    folder.write("lost.obj", format!("{CUBE}l 1 2\n").replace("l 1 2", "l 1 99"));
+    for (file, says) in
+        [("cube.obj", "no curves"), ("part.json", "a part has no curves"), ("lost.obj", "no vertex 98")]
+    {
+        let run = folder.ogee(&format!("render {file} --curves -o none.png")).expect(3);
+        assert!(run.stderr.contains(says), "{file}: {}", run.stderr);
+    }
+}
+
 #[cfg(feature = "gpu")]
 #[test]
 fn graphics_processors_draw_what_the_processor_draws() {

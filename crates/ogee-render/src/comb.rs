@@ -8,8 +8,8 @@ use ogee::quality::{FLAT, Side, Square, Surface, bounding_box};
 use ogee::{Derivatives, Location, Samples, SurfaceJet, Vec3};
 use rayon::prelude::*;
 
-use crate::colour::{Colour, decode, mix};
-use crate::pattern::line;
+use crate::canvas::{Canvas, pixels};
+use crate::colour::{Colour, decode};
 use crate::{DepthImage, View};
 
 /// Steps from hair to hair along a curve across a square.
@@ -48,7 +48,7 @@ pub fn draw(surface: &dyn Surface, view: &View, share: f64, depths: &[f64], colo
             hairs.into_iter().map(move |comb| comb.into_iter().map(seen).collect()).collect::<Vec<_>>()
         })
         .collect();
-    let mut canvas = Canvas { view, colours };
+    let mut canvas = Canvas::new(view, colours);
     let (hair, outline) = ([40, 90, 160].map(linear), [190, 40, 30].map(linear));
     for comb in &combs {
         let mut drawn: Option<[Vec3; 2]> = None;
@@ -177,16 +177,6 @@ fn steps(surface: &dyn Surface, view: &View, scale: &Scale, curves: &[Curve<'_>]
     hairs(surface, curves.iter().map(Curve::inner)).iter().map(enough).collect()
 }
 
-/// The distance of two points in the picture; endless where one is not before the eye.
-fn pixels(view: &View, a: Vec3, b: Vec3) -> f64 {
-    let [p, q] = [a, b].map(|point| view.to_camera(point));
-    if !view.is_parallel && p.z.min(q.z) <= 0.0 {
-        return f64::INFINITY;
-    }
-    let ([x0, y0], [x1, y1]) = (view.pixel(p), view.pixel(q));
-    (x1 - x0).hypot(y1 - y0)
-}
-
 /// The hairs of some curves; `None` where the surface has no curvature.
 fn hairs(surface: &dyn Surface, curves: impl Iterator<Item = Places>) -> Vec<Vec<Option<Hair>>> {
     let curves: Vec<Places> = curves.collect();
@@ -214,50 +204,4 @@ fn hairs(surface: &dyn Surface, curves: impl Iterator<Item = Places>) -> Vec<Vec
         all.map(|i| hair(curve.along, i)).collect()
     };
     curves.iter().map(of_curve).collect()
-}
-
-/// A picture that lines are drawn into.
-struct Canvas<'a> {
-    view: &'a View,
-    colours: &'a mut [Colour],
-}
-
-impl Canvas<'_> {
-    fn line(&mut self, a: Vec3, b: Vec3, colour: Colour, width: f64) {
-        let (p, q) = (self.view.to_camera(a), self.view.to_camera(b));
-        if !self.view.is_parallel && (p.z <= 0.0 || q.z <= 0.0) {
-            return;
-        }
-        let ([x0, y0], [x1, y1]) = (self.view.pixel(p), self.view.pixel(q));
-        let (dx, dy) = (x1 - x0, y1 - y0);
-        let length = dx.hypot(dy);
-        if !length.is_finite() {
-            return;
-        }
-        // Along the axis in which it is longer, a few pixels to either side.
-        let (main, other) = if dx.abs() >= dy.abs() { (0, 1) } else { (1, 0) };
-        let (start, end, delta) = ([x0, y0], [x1, y1], [dx, dy]);
-        let reach = 1.5 * (width + 1.0);
-        let clipped = |x: f64, axis: usize| x.clamp(0.0, f64::from(self.view.size[axis])) as u32;
-        let (first, last) = (start[main].min(end[main]) - reach, start[main].max(end[main]) + reach);
-        for i in clipped(first, main)..clipped(last.ceil(), main) {
-            let along = ((f64::from(i) + 0.5 - start[main]) / delta[main]).clamp(0.0, 1.0);
-            let middle = start[other] + if delta[main] == 0.0 { 0.0 } else { along * delta[other] };
-            for j in clipped(middle - reach, other)..clipped((middle + reach).ceil(), other) {
-                let (x, y) = if main == 0 { (i, j) } else { (j, i) };
-                let (px, py) = (f64::from(x) + 0.5 - x0, f64::from(y) + 0.5 - y0);
-                let part = if length > 0.0 {
-                    ((px * dx + py * dy) / (length * length)).clamp(0.0, 1.0)
-                } else {
-                    0.0
-                };
-                let distance = (px - part * dx).hypot(py - part * dy);
-                let cover = line(distance, width) as f32;
-                if cover > 0.0 {
-                    let pixel = &mut self.colours[(y * self.view.size[0] + x) as usize];
-                    *pixel = mix(*pixel, colour, cover);
-                }
-            }
-        }
-    }
 }

@@ -12,7 +12,9 @@
 //! | `solve` | from there to the point that the pixel shows exactly |
 //! | `depth` | [`DepthImage`]: what is in sight |
 //! | `displacement` | [`displacement`]: how far lines are from their place, in pixels |
+//! | `stroke` | [`Stroke`]: curves drawn over a picture |
 //! | `comb`, `legend` | combs; the scale of a map |
+//! | `canvas` | lines in space, as pixels |
 //! | `camera` | [`Camera`], [`View`]: where a point is in the picture |
 //! | `sight` | [`seen`]: which points nothing hides |
 //! | `style` | [`Scene`], [`Style`], [`Pattern`]: what is shown |
@@ -20,6 +22,7 @@
 //! | `image` | [`Image`]: pixels, PNG |
 
 mod camera;
+mod canvas;
 pub mod colour;
 pub mod comb;
 mod depth;
@@ -33,6 +36,7 @@ mod render;
 pub mod shade;
 mod sight;
 mod solve;
+mod stroke;
 mod style;
 
 pub use camera::{ANGLE, Camera, Projection, THREE_QUARTER, View};
@@ -45,4 +49,5 @@ pub use render::{
     DISPLACEMENT, MOST_PIXELS, Picture, RenderError, Stages, check, limit, outline, polygon, render,
 };
 pub use sight::seen;
+pub use stroke::Stroke;
 pub use style::{Pattern, Quantity, Sampling, Scene, Style, default_light};

@@ -2,5 +2,6 @@
 
 #[cfg(feature = "gpu")]
 mod adapters;
+pub(crate) mod curve_networks;
 pub(crate) mod interrogation;
 mod timing;

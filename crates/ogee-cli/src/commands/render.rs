@@ -16,6 +16,7 @@ use serde::Serialize;
 
 use crate::arguments::OutputArguments;
 use crate::cage::{CageArguments, read_bytes};
+use crate::curves::Curves;
 use crate::error::{Failure, Finding};
 use crate::names::{Format, formats};
 use crate::report::{Console, Table, bytes};
@@ -27,6 +28,7 @@ Examples:
   ogee render cage.obj --style reflection -o lines.png       mirrored lines, exact at every pixel
   ogee render cage.obj --style mean --size 1200x900 -o h.png mean curvature, with its scale
   ogee render cage.obj --beside part.json --style zebra -o zebra.png  the limit and the patches of a part
+  ogee render boat.json --curves --style reflection -o boat.png  the curves that ogee network laid, on the lines
   ogee render cage.obj --style error --sampling polygon:2 -o error.png";
 
 /// Draw the surface: shaded, mirrored lines, bands, curvature
@@ -46,6 +48,9 @@ pub(crate) struct Render {
     /// What to show
     #[arg(long, value_name = "STYLE", default_value = "shaded", value_parser = formats::<Look>())]
     style: Look,
+    /// Draw the curves in the file of the cage, as ogee network writes them, and discs where they meet
+    #[arg(long)]
+    curves: bool,
     /// What is on the light plane: lines, lattice, circles, or a picture
     #[arg(long, value_name = "LIGHT|FILE.png", default_value = "lines")]
     light: String,
@@ -209,22 +214,30 @@ impl Render {
         let image = self.image()?;
         let progress = console.progress();
         progress.step("reading");
-        let subject = Subject::read(&self.cage)?;
+        let (subject, curves) = self.read(&self.cage)?;
+        let curves = curves.transpose()?;
         subject.check_rules(&self.cage)?;
         destination.check()?;
         let other = match &self.beside {
-            Some(file) => Some(Subject::read(&self.cage.for_file(file))?),
+            Some(file) => Some(self.read(&self.cage.for_file(file))?),
             None => None,
         };
         progress.step("drawing");
         let scene = subject.look(|surface| self.scene(&subject, surface, image))?;
-        let Drawn { picture, device, adapter, upload, note } = self.draw(&subject, &scene)?;
+        let Drawn { mut picture, device, adapter, upload, note } = self.draw(&subject, &scene)?;
+        draw_curves(&subject, &scene, curves.as_ref(), &mut picture)?;
         let mut pixels = picture.reduced(self.samples).image();
         if let Some(limit) = picture.limit {
             pixels.add_legend(&scene.style, limit);
         }
-        if let Some(other) = &other {
-            let second = self.draw(other, &scene.beside(&picture))?.picture;
+        if let Some((other, curves)) = other {
+            let mut second = self.draw(&other, &scene.beside(&picture))?.picture;
+            // A part, and a cage with other curves or none, has those that its file has.
+            let curves = match curves.transpose() {
+                Err(failure) if failure.first().code == "no_curves" => None,
+                curves => curves?,
+            };
+            draw_curves(&other, &scene, curves.as_ref(), &mut second)?;
             let mut second = second.reduced(self.samples).image();
             pixels.add_caption(&subject.file_name());
             second.add_caption(&other.file_name());
@@ -237,6 +250,7 @@ impl Render {
         drop(progress);
 
         let mut notes = subject.notes();
+        notes.extend(curves.into_iter().flat_map(|curves| curves.notes));
         notes.extend(note);
         let stages = picture.seconds;
         let report = Report {
@@ -264,6 +278,14 @@ impl Render {
         console.table(&format!("{} -> {}", subject.name, destination.name()), &table(&report), &notes);
         console.json(&report)?;
         Ok(ExitCode::SUCCESS)
+    }
+
+    /// A cage or a part, and the curves in the same file if they are asked for.
+    fn read(&self, file: &CageArguments) -> Result<(Subject, Option<Result<Curves, Failure>>), Failure> {
+        let (name, format, bytes) = file.load()?;
+        let subject = Subject::parse(file, name, format, &bytes)?;
+        let curves = self.curves.then(|| Curves::read(&subject, format, &bytes));
+        Ok((subject, curves))
     }
 
     fn scene(
@@ -388,6 +410,19 @@ fn on_cpu(subject: &Subject, scene: &Scene, why: Option<String>) -> Result<Drawn
     let picture = picture.map_err(|error| subject.failure(error.code(), error.to_string()))?;
     let note = why.map(|why| Finding::in_file("drawn_on_cpu", why, &subject.name));
     Ok(Drawn { picture, device: "cpu", adapter: None, upload: 0.0, note })
+}
+
+/// Draws curves over the picture of a scene, whatever drew that.
+fn draw_curves(
+    subject: &Subject,
+    scene: &Scene,
+    curves: Option<&Curves>,
+    picture: &mut Picture,
+) -> Result<(), Failure> {
+    let Some((curves, view)) = curves.zip(scene.camera.view(scene.size)) else { return Ok(()) };
+    let strokes = curves.strokes(view.line_width());
+    let drawn = subject.look(|surface| picture.draw(surface, &scene.camera, &strokes));
+    drawn.map_err(|error| subject.failure(error.code(), error.to_string()))
 }
 
 fn is_png(path: &std::path::Path) -> bool {
