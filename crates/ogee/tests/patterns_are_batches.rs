@@ -36,6 +36,14 @@ fn special() -> Vec<[f64; 2]> {
     places
 }
 
+/// Corners of rectangles in the order of columns from above, among them narrow ones and places that are given twice.
+fn lattice() -> Vec<[f64; 2]> {
+    let lines = [1.0, 0.99, 0.8, 0.55, 0.5, 0.3, 0.25];
+    let mut places: Vec<[f64; 2]> = lines.iter().flat_map(|&u| lines.map(|v| [u, v])).collect();
+    places.extend_from_within(9..13);
+    places
+}
+
 /// Visible faces that follow one another.
 fn runs(table: &PatchTable) -> Vec<Range<usize>> {
     let mut runs: Vec<Range<usize>> = Vec::new();
@@ -111,7 +119,7 @@ fn on_cages_of_every_kind() {
     let mut cages = cages::all();
     cages.push(("body".into(), cages::body()));
     for (name, mesh) in cages {
-        for places in [centres(4), special(), centres(9), centres(1), vec![]] {
+        for places in [centres(4), special(), lattice(), centres(8), centres(9), centres(1), vec![]] {
             for what in ALL {
                 let worst = compare(&name, &mesh, &places, what);
                 assert!(

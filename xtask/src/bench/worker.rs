@@ -8,7 +8,10 @@ use std::sync::Mutex;
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
-use ogee::{ControlMesh, Derivatives, FaceId, Level, LimitSurface, Location, PatchTable, Samples, Vec3};
+use ogee::{
+    ControlMesh, Derivatives, FaceId, Level, LimitSurface, Location, LocationError, PatchTable, Samples, Vec3,
+};
+use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::exchange::{self, Sample};
@@ -113,15 +116,16 @@ fn by_list(mesh: &ControlMesh, what: Derivatives, samples: &[Sample]) -> Result<
     let table = PatchTable::new(&level);
     let surface = LimitSurface::new(&table, &mesh.points);
     let prepared = start.elapsed().as_secs_f64();
-    let mut places: Vec<Location> = Vec::with_capacity(samples.len());
+    let locate = |sample: &Sample| table.locate(FaceId(sample.face), sample.corner, sample.u, sample.v);
+    let mut places = samples.iter().map(locate).collect::<Result<Vec<Location>, LocationError>>()?;
     let mut results = Samples::default();
     let mut seconds = 0.0;
     for _ in 0..2 {
         let start = Instant::now();
-        places.clear();
-        for sample in samples {
-            places.push(table.locate(FaceId(sample.face), sample.corner, sample.u, sample.v)?);
-        }
+        samples.par_iter().zip(&mut places).try_for_each(|(sample, place)| {
+            *place = locate(sample)?;
+            Ok::<(), LocationError>(())
+        })?;
         surface.eval_into(&places, what, &mut results);
         seconds = start.elapsed().as_secs_f64();
     }

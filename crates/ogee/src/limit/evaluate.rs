@@ -2,7 +2,7 @@
 
 use super::bicubic::{self, Jet, Net};
 use super::normals::{is_sure, unit_normal};
-use super::out::{LANES, Out, Put};
+use super::out::{LANES, Lie, Out, Put};
 use super::walk::narrow;
 use super::{Derivatives, Flags};
 use crate::math::Vec3;
@@ -219,7 +219,8 @@ impl<const PARTS: usize, S: Source> simd::Kernel for Run<'_, '_, PARTS, S> {
             let [a, b, c, d] = [item(0), item(1), item(2), item(3)];
             let (u, v) = (V::load(&[a.u, b.u, c.u, d.u]), V::load(&[a.v, b.v, c.v, d.v]));
             let indices = [a.index as usize, b.index as usize, c.index as usize, d.index as usize];
-            let put = Put { indices, count, straight: source.is_straight() && count == LANES };
+            let lie = if source.is_straight() && count == LANES { Lie::Together } else { Lie::Apart };
+            let put = Put { indices, count, lie };
             group.write::<PARTS, V>(&put, &bicubic::four::<PARTS, V>(&group.net, u, v), out);
         }
     }
@@ -267,7 +268,10 @@ mod tests {
                 PLAIN.set(false);
                 samples
             };
-            let places: Vec<[f64; 2]> = at[..13].iter().map(|place| place.parameters()).collect();
+            let mut places: Vec<[f64; 2]> = at[..13].iter().map(|place| place.parameters()).collect();
+            // Rectangles whose corners stand in pairs, and such whose corners stand apart.
+            places.extend([[0.6, 0.1], [0.9, 0.1], [0.6, 0.4], [0.9, 0.4]]);
+            places.extend([[0.6, 0.6], [0.6, 0.9], [0.8, 0.6], [0.8, 0.9]]);
             let pattern = |plain: bool| -> Samples {
                 let mut samples = Samples::default();
                 PLAIN.set(plain);

@@ -4,17 +4,17 @@ use std::ops::Range;
 
 use super::batch::{Batch, Worker};
 use super::evaluate::Counted;
-use super::out::{LANES, Out, Put};
+use super::out::{Out, Put};
 use super::pattern::{Pattern, Sheet};
 use super::walk::wide;
-use super::weights::{MOST_POINTS, Weights};
+use super::weights::{MOST_POINTS, Sides, Weights};
 use super::{Derivatives, Flags};
 use crate::math::simd::{self, Four};
 use crate::math::{Vec3, par};
 use crate::patch::{Node, Piece, Wide};
 
-/// Samples that one task works through.
-const CHUNK: usize = 4096;
+/// Samples that one task works through: with all derivatives a third of what a core's own cache holds.
+const CHUNK: usize = 1024;
 
 /// Faces that one task works through.
 pub(super) fn in_block(pattern: &Pattern<'_>) -> usize {
@@ -36,7 +36,7 @@ pub(super) fn run(batch: Batch<'_>, pattern: &Pattern<'_>, faces: Range<usize>, 
     if pattern.is_empty() {
         return;
     }
-    let (worker, near, without) = (Worker::new(batch), [[0.0; 4]; MOST_POINTS], Vec::new());
+    let (worker, near, without) = (Worker::new(batch), [[0.0; 4]; MOST_POINTS - 1], Vec::new());
     let mut work = Work { batch, pattern, worker, near, without, out };
     for (number, face) in faces.enumerate() {
         work.face(face as u32, number * pattern.len());
@@ -49,8 +49,8 @@ struct Work<'a, 'o> {
     pattern: &'a Pattern<'a>,
     /// For places that have no weights.
     worker: Worker<'a>,
-    /// The points of a ring, relative to the first of them.
-    near: [Wide; MOST_POINTS],
+    /// The points of a ring but the first, relative to that.
+    near: [Wide; MOST_POINTS - 1],
     /// The places of a face that have no weights.
     without: Vec<u32>,
     out: Out<'o>,
@@ -84,8 +84,8 @@ impl<'a> Work<'a, '_> {
                 let tail = table.tail(number);
                 let weights = sheet.weights(table, tail, self.batch.what);
                 self.without.extend_from_slice(&weights.without);
-                if weights.are_there() {
-                    self.sums(table.ring(tail), weights, sheet, first);
+                if !weights.quartets().is_empty() {
+                    self.sums(table.ring(tail), weights, first);
                 }
             }
             Piece::Split(index) => {
@@ -105,10 +105,11 @@ impl<'a> Work<'a, '_> {
 
     /// Sums over the points of a ring, relative to the first of them.
     #[inline]
-    fn sums(&mut self, ring: &[u32], weights: &Weights, sheet: &Sheet, first: usize) {
+    fn sums(&mut self, ring: &[u32], weights: &Weights, first: usize) {
         let Batch { points, what, .. } = self.batch;
+        let Some((&base, ring)) = ring.split_first() else { return };
         let near = &mut self.near[..ring.len()];
-        let sums = Sums { points, ring, near, weights, sheet, first };
+        let sums = Sums { points, base, ring, near, weights, first };
         let out = &mut self.out;
         match what {
             Derivatives::None => simd::dispatch(Parts::<1> { sums, out }),
@@ -118,13 +119,13 @@ impl<'a> Work<'a, '_> {
     }
 }
 
-/// A ring, and weights for places in its tail.
+/// The first point of a ring and the others, and weights for places in its tail.
 struct Sums<'a> {
     points: &'a [Vec3],
+    base: u32,
     ring: &'a [u32],
     near: &'a mut [Wide],
     weights: &'a Weights,
-    sheet: &'a Sheet,
     first: usize,
 }
 
@@ -139,22 +140,33 @@ impl<const COUNT: usize> simd::Kernel for Parts<'_, '_, COUNT> {
 
     #[inline(always)]
     fn run<V: Four>(self) {
-        let Parts { sums: Sums { points, ring, near, weights, sheet, first }, out } = self;
-        let base = points[ring[0] as usize];
+        let Parts { sums: Sums { points, base, ring, near, weights, first }, out } = self;
+        let base = points[base as usize];
         let origin = V::load(&wide(base));
         for (near, &source) in near.iter_mut().zip(ring) {
             *near = V::load(&wide(points[source as usize])).minus(origin).store();
         }
         let base = [V::splat(base.x), V::splat(base.y), V::splat(base.z)];
-        for (four, items) in sheet.items.chunks(LANES).enumerate() {
-            let put = Put::new(items, first, sheet.is_whole());
+        for quartet in weights.quartets() {
+            let put = quartet.put(first);
             put.flags(out.flags, Flags::NONE);
             if COUNT == 1 {
-                let [[x, y, z]] = weighted::<1, V>(weights.of_four(four, 0), near);
+                let [[x, y, z]] = weighted::<1, V>(weights.of::<1>(quartet, 0), near);
                 put.vectors(out.position, [base[0].plus(x), base[1].plus(y), base[2].plus(z)]);
                 continue;
             }
-            let [[x, y, z], du, dv] = weighted::<3, V>(weights.of_four(four, 0), near);
+            if let Some(sides) = &quartet.sides {
+                rectangle(
+                    sides,
+                    [weights.of::<2>(quartet, 0), weights.of::<2>(quartet, 1)],
+                    near,
+                    base,
+                    &put,
+                    out,
+                );
+                continue;
+            }
+            let [[x, y, z], du, dv] = weighted::<3, V>(weights.of::<3>(quartet, 0), near);
             put.vectors(out.position, [base[0].plus(x), base[1].plus(y), base[2].plus(z)]);
             put.vectors(out.du, du);
             put.vectors(out.dv, dv);
@@ -162,12 +174,45 @@ impl<const COUNT: usize> simd::Kernel for Parts<'_, '_, COUNT> {
             if COUNT == 3 {
                 continue;
             }
-            let [duu, duv, dvv] = weighted::<3, V>(weights.of_four(four, 1), near);
+            let [duu, duv, dvv] = weighted::<3, V>(weights.of::<3>(quartet, 1), near);
             put.vectors(out.duu, duu);
             put.vectors(out.duv, duv);
             put.vectors(out.dvv, dvv);
         }
     }
+}
+
+/// The corners of a rectangle: first derivatives from the other sums.
+#[inline(always)]
+fn rectangle<V: Four>(
+    sides: &Sides,
+    weights: [&[Wide]; 2],
+    near: &[Wide],
+    base: [V; 3],
+    put: &Put,
+    out: &mut Out<'_>,
+) {
+    let [at, duu] = weighted::<2, V>(weights[0], near);
+    put.vectors(out.position, [base[0].plus(at[0]), base[1].plus(at[1]), base[2].plus(at[2])]);
+    put.vectors(out.duu, duu);
+    let (chord, bend) = (V::load(&sides.along_u.chord), V::load(&sides.along_u.bend));
+    let mut du = at;
+    for axis in 0..3 {
+        let bends = duu[axis].plus(duu[axis]).plus(duu[axis].swapped());
+        du[axis] = at[axis].swapped().minus(at[axis]).times(chord).plus(bends.times(bend));
+    }
+    put.vectors(out.du, du);
+    let [duv, dvv] = weighted::<2, V>(weights[1], near);
+    put.vectors(out.duv, duv);
+    put.vectors(out.dvv, dvv);
+    let (chord, bend) = (V::load(&sides.along_v.chord), V::load(&sides.along_v.bend));
+    let mut dv = at;
+    for axis in 0..3 {
+        let bends = dvv[axis].plus(dvv[axis]).plus(dvv[axis].turned());
+        dv[axis] = at[axis].turned().minus(at[axis]).times(chord).plus(bends.times(bend));
+    }
+    put.vectors(out.dv, dv);
+    put.normals(&du, &dv, Flags::NONE, out);
 }
 
 /// Sums over points, with so many weights for each; four places in lanes.

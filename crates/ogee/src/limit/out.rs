@@ -1,6 +1,5 @@
 //! Where results go.
 
-use super::evaluate::Item;
 use super::normals::{SURE, normals, unit_normal};
 use super::{Derivatives, Flags, Samples};
 use crate::math::Vec3;
@@ -78,36 +77,57 @@ impl Samples {
     }
 }
 
+/// How the places of four results follow one another.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Lie {
+    Together,
+    /// The second after the first, then the third, and the fourth after it.
+    InPairs,
+    Apart,
+}
+
+impl Lie {
+    /// Of four places with these numbers.
+    pub(super) fn of(&[a, b, c, d]: &[u32; LANES]) -> Lie {
+        let in_pairs = b == a + 1 && c > b && d == c + 1;
+        match in_pairs {
+            true if c == b + 1 => Lie::Together,
+            true => Lie::InPairs,
+            false => Lie::Apart,
+        }
+    }
+}
+
 /// Places of results of up to four samples.
 pub(super) struct Put {
     pub(super) indices: [usize; LANES],
     pub(super) count: usize,
-    /// True if there are four, and their places follow one another.
-    pub(super) straight: bool,
+    /// [`Lie::Apart`] if there are fewer than four.
+    pub(super) lie: Lie,
 }
 
 impl Put {
-    /// Of up to four items that results start at `first` for; `straight` if these follow one another.
-    #[inline(always)]
-    pub(super) fn new(items: &[Item], first: usize, straight: bool) -> Put {
-        let count = items.len();
-        let mut indices = [0; LANES];
-        for l in 0..LANES {
-            indices[l] = first + items[l.min(count - 1)].index as usize;
-        }
-        Put { indices, count, straight: straight && count == LANES }
-    }
-
     #[inline(always)]
     pub(super) fn vectors<V: Four>(&self, out: &mut [Vec3], coordinates: [V; 3]) {
-        if self.straight {
-            let out = out[self.indices[0]..].first_chunk_mut();
-            V::store_vectors(coordinates, out.expect("there is room for every sample"));
-        } else {
-            let mut four = [Vec3::ZERO; LANES];
-            V::store_vectors(coordinates, &mut four);
-            for l in 0..self.count {
-                out[self.indices[l]] = four[l];
+        let [a, _, c, _] = self.indices;
+        match self.lie {
+            Lie::Together => {
+                let out = out[a..].first_chunk_mut();
+                V::store_vectors(coordinates, out.expect("there is room for every sample"));
+            }
+            Lie::InPairs => {
+                let (first, second) = out[a..c + 2].split_at_mut(c - a);
+                let (first, second) = (first.first_chunk_mut(), second.first_chunk_mut());
+                let pairs = first.zip(second);
+                let (first, second) = pairs.expect("there is room for every sample");
+                V::store_pairs(coordinates, first, second);
+            }
+            Lie::Apart => {
+                let mut four = [Vec3::ZERO; LANES];
+                V::store_vectors(coordinates, &mut four);
+                for l in 0..self.count {
+                    out[self.indices[l]] = four[l];
+                }
             }
         }
     }

@@ -1,13 +1,17 @@
 //! Weights of places over the ring of a tail: what all tails of one kind share.
 //!
-//! Position and derivatives at a place are sums over the points of the ring, with weights that depend on the place and the
+//! Position and derivatives at a place are sums over the points of the ring, relative to the first of them, with weights that depend on the place and the
 //! kind of tail alone. They are what evaluation gives where one of the points is 1 and the others are 0; four such cases
 //! go side by side, as coordinates.
+//!
+//! Where four places are the corners of a rectangle in one tile, position and second derivatives are summed, and first
+//! derivatives follow: along a side the surface is a cubic, which its ends and its second derivatives there decide. The
+//! other way round a small second derivative would be what is left of large differences.
 
 use super::Derivatives;
 use super::bicubic::{self, Net};
 use super::evaluate::Item;
-use super::out::LANES;
+use super::out::{LANES, Lie, Put};
 use super::place::{in_chain, power_of_two};
 use crate::math::simd::{Four, Plain};
 use crate::patch::{ChainBasis, TURNED, Wide};
@@ -22,39 +26,85 @@ const MOST_PLACES: usize = 64;
 /// a point near it.
 const STEPS: usize = 4;
 
+/// The shortest side of a rectangle, in the parameters of the piece: roundings of its ends are divided by it.
+const SHORTEST: f64 = 1.0 / 8.0;
+
 /// Weights of some places in a tail over the points of its ring.
 #[derive(Clone, Debug)]
 pub(super) struct Weights {
-    /// How many points.
+    /// How many points, the first left out.
     points: usize,
-    order: Order,
-    /// For each four places, and each round, point after point the weights of some parts of the jet, places in lanes.
+    quartets: Vec<Quartet>,
+    /// For each quartet, and each round, point after point the weights of some parts of the jet, places in lanes.
     lanes: Vec<Wide>,
-    /// The numbers of places that have no weights: too deep in a chain, or its end. Their lanes are those of another.
+    /// The numbers of places that have no weights: too deep in a chain, or its end.
     pub(super) without: Vec<u32>,
 }
 
-/// How the parts of a jet are summed: as many at a time as there are registers for.
-#[derive(Clone, Copy, Debug)]
-struct Order {
-    rounds: usize,
-    parts: usize,
+/// Quartet places side by side.
+#[derive(Clone, Debug)]
+pub(super) struct Quartet {
+    /// Their numbers; if there are fewer, the last again.
+    places: [u32; LANES],
+    count: usize,
+    lie: Lie,
+    /// If they are the corners of a rectangle.
+    pub(super) sides: Option<Sides>,
+    /// Where their weights begin.
+    first: usize,
 }
 
-impl Order {
-    fn of(what: Derivatives) -> Order {
-        let (rounds, parts) = match what {
-            Derivatives::None => (1, 1),
-            Derivatives::First => (1, 3),
-            Derivatives::Second => (2, 3),
-        };
-        Order { rounds, parts }
+/// A rectangle in one tile, whose corners are `(u0, v0)`, `(u1, v0)`, `(u0, v1)`, `(u1, v1)`: what makes first derivatives
+/// along its sides.
+#[derive(Clone, Debug)]
+pub(super) struct Sides {
+    pub(super) along_u: Side,
+    pub(super) along_v: Side,
+}
+
+/// What makes the slopes of cubics at both ends, ends in lanes.
+#[derive(Clone, Debug)]
+pub(super) struct Side {
+    /// Times the other end less this one.
+    pub(super) chord: Wide,
+    /// Times twice the second derivative here and once that at the other end.
+    pub(super) bend: Wide,
+}
+
+impl Side {
+    /// Of cubics over an interval so long; `far` are the lanes of its second end.
+    fn new(length: f64, far: [bool; LANES]) -> Side {
+        let [chord, bend] = [1.0 / length, -length / 6.0].map(|x| far.map(|far| if far { -x } else { x }));
+        Side { chord, bend }
+    }
+}
+
+impl Quartet {
+    /// Where results go that start at `first`.
+    #[inline(always)]
+    pub(super) fn put(&self, first: usize) -> Put {
+        let mut indices = [0; LANES];
+        for l in 0..LANES {
+            indices[l] = first + self.places[l] as usize;
+        }
+        Put { indices, count: self.count, lie: self.lie }
+    }
+}
+
+/// Parts of the jet that are summed, and how many at a time, so that there are registers for them.
+fn order(what: Derivatives, in_rectangle: bool) -> (&'static [usize], usize) {
+    match what {
+        Derivatives::None => (&[0], 1),
+        Derivatives::First => (&[0, 1, 2], 3),
+        Derivatives::Second if in_rectangle => (&[0, 3, 4, 5], 2),
+        Derivatives::Second => (&[0, 1, 2, 3, 4, 5], 3),
     }
 }
 
 /// Where a place lies: how often its tile was halved, the tile, and the parameters in it.
 #[derive(Clone, Copy)]
 struct Spot {
+    number: u32,
     step: usize,
     tile: usize,
     u: f64,
@@ -70,18 +120,24 @@ impl Weights {
         depth: i32,
         what: Derivatives,
     ) -> Weights {
-        let count = basis.ring_count();
-        let pays = !basis.has_quarters() && count <= MOST_POINTS && items.len() <= MOST_PLACES;
-        let spots = items.iter().map(|item| {
-            let (key, u, v) = in_chain(corner, item.u, item.v);
+        let points = basis.ring_count() - 1;
+        let pays = !basis.has_quarters() && points < MOST_POINTS && items.len() <= MOST_PLACES;
+        let (mut spots, mut without) = (Vec::new(), Vec::new());
+        for &Item { u, v, index } in items {
+            let (key, u, v) = in_chain(corner, u, v);
             let (step, tile) = ((key >> 2) as usize, (key & 3) as usize);
             // Step 0 is the vertex itself.
-            (pays && (1..=STEPS).contains(&step)).then_some(Spot { step, tile, u, v })
-        });
-        let (mut weights, spots) = Weights::room(count, items, spots.collect(), what);
+            if pays && (1..=STEPS).contains(&step) {
+                spots.push(Spot { number: index, step, tile, u, v });
+            } else {
+                without.push(index);
+            }
+        }
+        let mut weights = Weights { points, quartets: Vec::new(), lanes: Vec::new(), without };
+        let spots = weights.room(spots, depth, what);
         let deepest = spots.iter().map(|spot| spot.step).max().unwrap_or(0);
         let mut fine = vec![[0.0; 4]; basis.work_count()];
-        for group in 0..count.div_ceil(LANES) {
+        for group in 0..points.div_ceil(LANES) {
             let mut ring: Vec<Wide> = (0..basis.work_count()).map(|point| unit(point, group)).collect();
             for step in 1..=deepest {
                 basis.step(&mut ring, &mut fine);
@@ -91,7 +147,7 @@ impl Weights {
                     let net = bicubic::coefficients_of(&control);
                     let here = |&(_, spot): &(usize, &Spot)| spot.step == step && spot.tile == tile;
                     for (place, spot) in spots.iter().enumerate().filter(here) {
-                        weights.set(place, group, &net, spot, depth);
+                        weights.set(place, group, &net, spot, depth, what);
                     }
                 }
                 std::mem::swap(&mut ring, &mut fine);
@@ -100,55 +156,84 @@ impl Weights {
         weights
     }
 
-    /// No weights yet, and for each lane where its place lies: for a place that is to have none, and for lanes left over,
-    /// where another does.
-    fn room(
-        points: usize,
-        items: &[Item],
-        spots: Vec<Option<Spot>>,
-        what: Derivatives,
-    ) -> (Weights, Vec<Spot>) {
-        let order = Order::of(what);
-        let without = items.iter().zip(&spots).filter(|(_, spot)| spot.is_none()).map(|(item, _)| item.index);
-        let mut weights = Weights { points, order, lanes: Vec::new(), without: without.collect() };
-        let Some(any) = spots.iter().copied().flatten().next() else {
-            return (weights, Vec::new());
-        };
-        let fours = spots.len().div_ceil(LANES);
-        weights.lanes.resize(fours * order.rounds * points * order.parts, [0.0; 4]);
-        let mut spots: Vec<Spot> = spots.into_iter().map(|spot| spot.unwrap_or(any)).collect();
-        spots.resize(fours * LANES, any);
-        (weights, spots)
+    /// Puts spots into quartets, without weights yet, and gives the spot of each lane: rectangles first, where these save sums.
+    fn room(&mut self, mut spots: Vec<Spot>, depth: i32, what: Derivatives) -> Vec<Spot> {
+        let (mut lanes, mut rest) = (Vec::new(), Vec::new());
+        while what == Derivatives::Second && !spots.is_empty() {
+            let Some(corners) = rectangle(&spots) else {
+                rest.push(spots.remove(0));
+                continue;
+            };
+            let four = corners.map(|corner| spots[corner]);
+            let scale = power_of_two(depth + four[0].step as i32);
+            let along_u = Side::new((four[1].u - four[0].u) / scale, [false, true, false, true]);
+            let along_v = Side::new((four[2].v - four[0].v) / scale, [false, false, true, true]);
+            self.push(&four, Some(Sides { along_u, along_v }), what);
+            lanes.extend(four);
+            spots.retain(|spot| four.iter().all(|corner| corner.number != spot.number));
+        }
+        rest.append(&mut spots);
+        for some in rest.chunks(LANES) {
+            self.push(some, None, what);
+            lanes.extend((0..LANES).map(|l| some[l.min(some.len() - 1)]));
+        }
+        lanes
+    }
+
+    /// Room for up to four places.
+    fn push(&mut self, spots: &[Spot], sides: Option<Sides>, what: Derivatives) {
+        let places = std::array::from_fn(|l| spots[l.min(spots.len() - 1)].number);
+        let (first, (parts, _)) = (self.lanes.len(), order(what, sides.is_some()));
+        self.lanes.resize(first + parts.len() * self.points, [0.0; 4]);
+        self.quartets.push(Quartet { places, count: spots.len(), lie: Lie::of(&places), sides, first });
     }
 
     /// The weights of a place over four points, from the patch that these make.
-    fn set(&mut self, place: usize, group: usize, net: &Net, spot: &Spot, depth: i32) {
-        let Order { rounds, parts } = self.order;
+    fn set(&mut self, place: usize, group: usize, net: &Net, spot: &Spot, depth: i32, what: Derivatives) {
+        let Quartet { sides, first, .. } = &self.quartets[place / LANES];
         let scale = power_of_two(depth + spot.step as i32);
         let scales = [1.0, scale, scale, scale * scale, scale * scale, scale * scale];
         let jet = bicubic::one::<6, Plain>(net, Plain::splat(spot.u), Plain::splat(spot.v)).map(Plain::store);
-        for part in 0..rounds * parts {
+        let (parts, at_once) = order(what, sides.is_some());
+        for (k, &part) in parts.iter().enumerate() {
             for (point, value) in (LANES * group..self.points).zip(jet[part]) {
-                let row = (place / LANES * rounds + part / parts) * self.points + point;
-                self.lanes[row * parts + part % parts][place % LANES] = scales[part] * value;
+                let row = k / at_once * self.points + point;
+                self.lanes[first + row * at_once + k % at_once][place % LANES] = scales[part] * value;
             }
         }
     }
 
-    /// False if no place has weights.
-    pub(super) fn are_there(&self) -> bool {
-        !self.lanes.is_empty()
+    /// Places by fours; none if no place has weights.
+    #[inline(always)]
+    pub(super) fn quartets(&self) -> &[Quartet] {
+        &self.quartets
     }
 
-    /// The weights of four places in one round.
+    /// The weights of a quartet in one round, of so many parts.
     #[inline(always)]
-    pub(super) fn of_four(&self, four: usize, round: usize) -> &[Wide] {
-        let length = self.points * self.order.parts;
-        &self.lanes[(four * self.order.rounds + round) * length..][..length]
+    pub(super) fn of<const PARTS: usize>(&self, quartet: &Quartet, round: usize) -> &[Wide] {
+        let length = self.points * PARTS;
+        &self.lanes[quartet.first + round * length..][..length]
     }
 }
 
-/// Four cases side by side, of which one has this point for its 1.
+/// The first spot and three others, if they are the corners of a rectangle in one tile that is large enough.
+fn rectangle(spots: &[Spot]) -> Option<[usize; LANES]> {
+    let first = &spots[0];
+    let shortest = SHORTEST * power_of_two(first.step as i32);
+    let far = |from: f64, to: f64| (to - from).abs() >= shortest;
+    let together = |spot: &Spot| (spot.step, spot.tile) == (first.step, first.tile);
+    let find = |u: f64, v: f64| spots.iter().position(|spot| together(spot) && spot.u == u && spot.v == v);
+    let on_line = |spot: &&Spot| together(spot) && spot.v == first.v && far(first.u, spot.u);
+    spots.iter().filter(on_line).find_map(|right| {
+        let on_line = |spot: &&Spot| together(spot) && spot.u == first.u && far(first.v, spot.v);
+        spots.iter().filter(on_line).find_map(|above| {
+            Some([0, find(right.u, first.v)?, find(first.u, above.v)?, find(right.u, above.v)?])
+        })
+    })
+}
+
+/// Four cases side by side, of which one has this point for its 1; the first point has none.
 fn unit(point: usize, group: usize) -> Wide {
-    std::array::from_fn(|l| if point == LANES * group + l { 1.0 } else { 0.0 })
+    std::array::from_fn(|l| if point == 1 + LANES * group + l { 1.0 } else { 0.0 })
 }

@@ -70,6 +70,18 @@ pub(crate) fn each_with<M>(
     }
 }
 
+/// `f`, with some `count` outputs and several calls of the above one after the other: a thread that already takes part makes
+/// them without being put to sleep and woken for each.
+pub(crate) fn stay<T: Send>(count: usize, f: impl FnOnce() -> T + Send) -> T {
+    #[cfg(feature = "rayon")]
+    if count > CHUNK {
+        return rayon::scope(|_| f());
+    }
+    #[cfg(not(feature = "rayon"))]
+    let _ = count;
+    f()
+}
+
 /// Both, at the same time if there is a thread to spare.
 pub(crate) fn join(a: impl FnOnce() + Send, b: impl FnOnce() + Send) {
     #[cfg(feature = "rayon")]

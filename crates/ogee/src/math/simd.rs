@@ -18,6 +18,12 @@ pub(crate) trait Four: Copy {
     fn store(self) -> [f64; 4];
     /// Four vectors to memory, from their first, second and third coordinates.
     fn store_vectors(coordinates: [Self; 3], out: &mut [Vec3; 4]);
+    /// The same to two places in memory, two vectors each.
+    fn store_pairs(coordinates: [Self; 3], first: &mut [Vec3; 2], second: &mut [Vec3; 2]);
+    /// The second lane, the first, the fourth, the third.
+    fn swapped(self) -> Self;
+    /// The third lane, the fourth, the first, the second.
+    fn turned(self) -> Self;
     /// Sums.
     fn plus(self, other: Self) -> Self;
     /// Differences.
@@ -95,6 +101,23 @@ impl Four for Plain {
         }
     }
     #[inline(always)]
+    fn store_pairs([x, y, z]: [Plain; 3], first: &mut [Vec3; 2], second: &mut [Vec3; 2]) {
+        for l in 0..2 {
+            first[l] = Vec3::new(x.0[l], y.0[l], z.0[l]);
+            second[l] = Vec3::new(x.0[2 + l], y.0[2 + l], z.0[2 + l]);
+        }
+    }
+    #[inline(always)]
+    fn swapped(self) -> Plain {
+        let [a, b, c, d] = self.0;
+        Plain([b, a, d, c])
+    }
+    #[inline(always)]
+    fn turned(self) -> Plain {
+        let [a, b, c, d] = self.0;
+        Plain([c, d, a, b])
+    }
+    #[inline(always)]
     fn plus(self, other: Plain) -> Plain {
         self.with(other, |a, b| a + b)
     }
@@ -125,8 +148,9 @@ impl Four for Plain {
 mod wide {
     use super::{Four, Kernel, Vec3};
     use std::arch::x86_64::{
-        __m256d, _CMP_GT_OQ, _mm256_add_pd, _mm256_blend_pd, _mm256_cmp_pd, _mm256_div_pd, _mm256_loadu_pd,
-        _mm256_movemask_pd, _mm256_mul_pd, _mm256_permute2f128_pd, _mm256_set1_pd, _mm256_shuffle_pd,
+        __m256d, _CMP_GT_OQ, _mm_storeu_pd, _mm256_add_pd, _mm256_blend_pd, _mm256_castpd256_pd128,
+        _mm256_cmp_pd, _mm256_div_pd, _mm256_extractf128_pd, _mm256_loadu_pd, _mm256_movemask_pd,
+        _mm256_mul_pd, _mm256_permute_pd, _mm256_permute2f128_pd, _mm256_set1_pd, _mm256_shuffle_pd,
         _mm256_sqrt_pd, _mm256_storeu_pd, _mm256_sub_pd, _mm256_unpackhi_pd, _mm256_unpacklo_pd,
     };
 
@@ -140,6 +164,24 @@ mod wide {
     /// below sound. Loads and stores are of arrays of just that size, of any alignment.
     #[derive(Clone, Copy)]
     pub(super) struct Register(__m256d);
+
+    impl Register {
+        /// Four vectors one after the other, from their first, second and third coordinates.
+        #[inline(always)]
+        fn in_rows([x, y, z]: [Register; 3]) -> [__m256d; 3] {
+            unsafe {
+                // x0 y0 x2 y2, y1 z1 y3 z3, z0 x1 z2 x3.
+                let xy = _mm256_unpacklo_pd(x.0, y.0);
+                let yz = _mm256_unpackhi_pd(y.0, z.0);
+                let zx = _mm256_shuffle_pd::<0b1010>(z.0, x.0);
+                [
+                    _mm256_permute2f128_pd::<0x20>(xy, zx),
+                    _mm256_blend_pd::<0b1100>(yz, xy),
+                    _mm256_permute2f128_pd::<0x31>(zx, yz),
+                ]
+            }
+        }
+    }
 
     impl Four for Register {
         #[inline(always)]
@@ -157,18 +199,35 @@ mod wide {
             out
         }
         #[inline(always)]
-        fn store_vectors([x, y, z]: [Register; 3], out: &mut [Vec3; 4]) {
+        fn store_vectors(coordinates: [Register; 3], out: &mut [Vec3; 4]) {
             // A vector is three numbers in a row, so four of them are twelve.
             let out = out.as_mut_ptr().cast::<f64>();
+            let [first, middle, last] = Register::in_rows(coordinates);
             unsafe {
-                // x0 y0 x2 y2, y1 z1 y3 z3, z0 x1 z2 x3.
-                let xy = _mm256_unpacklo_pd(x.0, y.0);
-                let yz = _mm256_unpackhi_pd(y.0, z.0);
-                let zx = _mm256_shuffle_pd::<0b1010>(z.0, x.0);
-                _mm256_storeu_pd(out, _mm256_permute2f128_pd::<0x20>(xy, zx));
-                _mm256_storeu_pd(out.add(4), _mm256_blend_pd::<0b1100>(yz, xy));
-                _mm256_storeu_pd(out.add(8), _mm256_permute2f128_pd::<0x31>(zx, yz));
+                _mm256_storeu_pd(out, first);
+                _mm256_storeu_pd(out.add(4), middle);
+                _mm256_storeu_pd(out.add(8), last);
             }
+        }
+        #[inline(always)]
+        fn store_pairs(coordinates: [Register; 3], first: &mut [Vec3; 2], second: &mut [Vec3; 2]) {
+            // Two vectors are six numbers.
+            let (one, two) = (first.as_mut_ptr().cast::<f64>(), second.as_mut_ptr().cast::<f64>());
+            let [first, middle, last] = Register::in_rows(coordinates);
+            unsafe {
+                _mm256_storeu_pd(one, first);
+                _mm_storeu_pd(one.add(4), _mm256_castpd256_pd128(middle));
+                _mm_storeu_pd(two, _mm256_extractf128_pd::<1>(middle));
+                _mm256_storeu_pd(two.add(2), last);
+            }
+        }
+        #[inline(always)]
+        fn swapped(self) -> Register {
+            Register(unsafe { _mm256_permute_pd::<0b0101>(self.0) })
+        }
+        #[inline(always)]
+        fn turned(self) -> Register {
+            Register(unsafe { _mm256_permute2f128_pd::<0x01>(self.0, self.0) })
         }
         #[inline(always)]
         fn plus(self, other: Register) -> Register {
@@ -226,10 +285,14 @@ mod tests {
         fn run<V: Four>(self) -> Vec<[u64; 4]> {
             let (a, b) = (V::load(&self.0), V::load(&self.1));
             let results = [a.plus(b), a.minus(b), a.times(b), a.over(b), a.root(), V::splat(self.1[2])];
+            let turned = [a.swapped(), a.turned()];
             let mut vectors = [Vec3::ZERO; 4];
             V::store_vectors([a, b, a.plus(b)], &mut vectors);
+            let (mut first, mut second) = ([Vec3::ZERO; 2], [Vec3::ZERO; 2]);
+            V::store_pairs([a, b, a.plus(b)], &mut first, &mut second);
+            assert_eq!([first, second].as_flattened(), vectors);
             let vectors = vectors.map(|v| [v.x, v.y, v.z, f64::from(a.above(b))]);
-            let numbers = results.into_iter().map(V::store).chain(vectors);
+            let numbers = results.into_iter().chain(turned).map(V::store).chain(vectors);
             numbers.map(|value| value.map(f64::to_bits)).collect()
         }
     }

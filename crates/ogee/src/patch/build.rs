@@ -399,8 +399,12 @@ mod tests {
     #[test]
     fn the_quick_way_makes_the_same_table() {
         let studded = shapes::studded_torus(16, 12, 4);
+        // More targets, and points of theirs, than one thread takes in one go.
+        let large = shapes::studded_torus(48, 36, 4);
         let meshes = [
             studded.clone(),
+            large.clone(),
+            with_polygons(large),
             shapes::cube(),
             shapes::disk(5, 3),
             with_polygons(shapes::torus(15, 9)),

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::Neighbourhood;
 use super::surroundings::Mirrored;
+use crate::math::par;
 use crate::mesh::VertexId;
 use crate::rules::Level;
 use crate::stencil::{Row, StencilTable};
@@ -55,18 +56,13 @@ pub(super) struct Points {
     vertices: Vec<u32>,
     /// Numbers of mirrored points, by their terms.
     mirrored: HashMap<Vec<(u32, i32)>, u32>,
-    /// What has got a number, in that order.
-    new: Vec<New>,
+    /// What has got a number, in that order: vertices, and the places of mirrored points among `terms`, counted on.
+    new: Vec<u32>,
     terms: Vec<Mirrored>,
 }
 
-/// A point that has got a number.
-#[derive(Clone, Copy)]
-enum New {
-    Vertex(u32),
-    /// The place of its terms.
-    Mirrored(u32),
-}
+/// Marks that one thread takes in one go: those of so many times 64 vertices.
+const WORDS: usize = 64;
 
 /// Vertices that are to get numbers. Any thread may mark any of them: the set is the same whoever comes first.
 pub(super) struct Marks(Vec<AtomicU64>);
@@ -84,18 +80,6 @@ impl Marks {
             word.fetch_or(bit, Ordering::Relaxed);
         }
     }
-
-    /// What is marked, in order.
-    fn into_vertices(self) -> impl Iterator<Item = u32> {
-        self.0.into_iter().zip((0..).step_by(64)).flat_map(|(word, first)| {
-            let mut bits = word.into_inner();
-            std::iter::from_fn(move || {
-                let bit = (bits != 0).then(|| bits.trailing_zeros())?;
-                bits &= bits - 1;
-                Some(first + bit)
-            })
-        })
-    }
 }
 
 impl Points {
@@ -111,11 +95,31 @@ impl Points {
         Marks::new(self.vertices.len())
     }
 
-    /// Gives numbers to vertices that have none, in their order.
+    /// Gives numbers to all that is marked, in order, on all cores. Nothing has a number yet.
     pub(super) fn number_marked(&mut self, marks: Marks) {
-        for vertex in marks.into_vertices() {
-            self.vertex(vertex);
+        debug_assert!(self.new.is_empty(), "marked vertices come first");
+        let words: Vec<u64> = marks.0.into_iter().map(AtomicU64::into_inner).collect();
+        let count = |words: &[u64]| words.iter().map(|word| word.count_ones() as usize).sum();
+        // Zeros that no one has touched yet cost nothing.
+        self.new = vec![0; count(&words)];
+        let (mut new, mut first) = (&mut self.new[..], 0);
+        let mut shares = Vec::new();
+        for (words, vertices) in words.chunks(WORDS).zip(self.vertices.chunks_mut(64 * WORDS)) {
+            let (own, later) = new.split_at_mut(count(words));
+            let next = self.next;
+            self.next += own.len() as u32;
+            shares.push((words, vertices, own, first, next));
+            (new, first) = (later, first + 64 * WORDS as u32);
         }
+        par::each(shares, |(words, vertices, new, first, next)| {
+            let places = words.iter().zip((0..).step_by(64)).flat_map(|(&word, start)| {
+                (0..64).filter(move |bit| word >> bit & 1 != 0).map(move |bit| start + bit)
+            });
+            for ((place, new), number) in places.zip(new).zip(next..) {
+                *new = first + place;
+                vertices[place as usize] = number + 1;
+            }
+        });
     }
 
     /// The number of a vertex that has one.
@@ -130,7 +134,7 @@ impl Points {
         if *number == 0 {
             self.next += 1;
             *number = self.next;
-            self.new.push(New::Vertex(vertex));
+            self.new.push(vertex);
         }
         *number - 1
     }
@@ -142,7 +146,7 @@ impl Points {
         // Weights of mirrored points are small whole numbers.
         let key = point.iter().map(|&(vertex, weight)| (vertex, weight as i32)).collect();
         *self.mirrored.entry(key).or_insert_with(|| {
-            self.new.push(New::Mirrored(self.terms.len() as u32));
+            self.new.push((self.vertices.len() + self.terms.len()) as u32);
             self.terms.push(point);
             self.next += 1;
             self.next - 1
@@ -152,10 +156,10 @@ impl Points {
     /// The new points as rows; `write` adds a vertex, times a share.
     pub(super) fn rows(&self, write: impl Fn(u32, f64, &mut Row) + Sync + Send) -> StencilTable {
         StencilTable::from_rows(self.new.len(), |i, row| {
-            match self.new[i] {
-                New::Vertex(vertex) => write(vertex, 1.0, row),
-                New::Mirrored(terms) => {
-                    self.terms[terms as usize].iter().for_each(|&(vertex, share)| write(vertex, share, row));
+            match (self.new[i] as usize).checked_sub(self.vertices.len()) {
+                None => write(self.new[i], 1.0, row),
+                Some(terms) => {
+                    self.terms[terms].iter().for_each(|&(vertex, share)| write(vertex, share, row))
                 }
             }
             row.expand_face_points(|_, _, _| ());

@@ -56,11 +56,18 @@ struct Wanted {
 struct Pieces {
     /// Corner and valence of a tail; a leaf has none.
     shapes: Vec<Option<[u32; 2]>>,
-    /// Vertices of the level, then their numbers.
+    /// Vertices of the level.
     points: Vec<u32>,
+    /// Leaves below splits.
+    leaves: usize,
+    /// Numbers in the rings of the tails.
+    rings: usize,
+    valences: Vec<u32>,
     /// The targets of these shapes, and those that are not plain.
     settled: Vec<Target>,
     other: Vec<Target>,
+    /// Roots that are leaves.
+    roots: Vec<(u32, Sources)>,
 }
 
 impl Builder {
@@ -205,28 +212,45 @@ impl Builder {
             pieces
         });
         points.number_marked(marks);
-        let points = &*points;
-        par::each(chunks.iter_mut().collect(), |pieces: &mut Pieces| {
-            pieces.points.iter_mut().for_each(|vertex| *vertex = points.of(*vertex));
+        for &valence in chunks.iter().flat_map(|pieces| &pieces.valences) {
+            self.kind(Kind::Smooth { valence });
+        }
+        let (points, smooth, table) = (&*points, &self.smooth, &mut self.table);
+        let sum = |of: fn(&Pieces) -> usize| chunks.iter().map(of).sum::<usize>();
+        let (mut leaf, mut tail, ring) = (table.leaves.len(), table.tails.len(), table.rings.len());
+        u32::try_from(ring + sum(|pieces| pieces.rings))
+            .expect("fewer than 2^32 numbers in the rings of a table");
+        table.leaves.resize(leaf + sum(|pieces| pieces.leaves), Sources([0; 16]));
+        table.tails.resize(tail + sum(Pieces::tails), Tail { first: 0, kind: 0, corner: 0 });
+        table.rings.resize(ring + sum(|pieces| pieces.rings), 0);
+        let (mut leaves, mut tails) = (&mut table.leaves[leaf..], &mut table.tails[tail..]);
+        let (mut rings, mut first) = (&mut table.rings[ring..], ring as u32);
+        let mut shares = Vec::with_capacity(chunks.len());
+        for pieces in &mut chunks {
+            let (own_leaves, later_leaves) = leaves.split_at_mut(pieces.leaves);
+            let (own_tails, later_tails) = tails.split_at_mut(pieces.tails());
+            let (own_rings, later_rings) = rings.split_at_mut(pieces.rings);
+            let next = first + pieces.rings as u32;
+            shares.push((pieces, own_leaves, own_tails, own_rings, first));
+            (leaves, tails, rings, first) = (later_leaves, later_tails, later_rings, next);
+        }
+        par::each(shares, |(pieces, leaves, tails, rings, first)| {
+            pieces.write(points, smooth, leaves, tails, rings, first);
         });
         let mut other = Vec::new();
-        for Pieces { shapes, points, settled, other: open } in chunks {
-            other.extend(open);
-            let mut points = &points[..];
-            for (shape, target) in shapes.into_iter().zip(settled) {
-                let Some([corner, valence]) = shape else {
-                    let (net, later) = points.split_first_chunk().expect("a leaf has all its points");
-                    self.leaf(target.slot, *net);
-                    points = later;
-                    continue;
-                };
-                let kind = Kind::Smooth { valence };
-                let (ring, later) = points.split_at(kind.ring_count());
-                let tail = Tail { first: self.ring_start(), kind: self.kind(kind), corner };
-                self.table.rings.extend_from_slice(ring);
-                let node = self.tail(tail);
-                self.place(target.slot, node);
-                points = later;
+        for pieces in chunks {
+            other.extend(pieces.other);
+            for (root, net) in pieces.roots {
+                self.table.roots[root as usize] = net;
+            }
+            for (shape, target) in pieces.shapes.into_iter().zip(pieces.settled) {
+                if shape.is_some() {
+                    self.place(target.slot, Node::new(Piece::Tail(tail as u32)));
+                    tail += 1;
+                } else if !matches!(target.slot, Slot::Root(_)) {
+                    self.place(target.slot, Node::new(Piece::Leaf(leaf as u32)));
+                    leaf += 1;
+                }
             }
         }
         other
@@ -243,12 +267,17 @@ impl Pieces {
         match plain {
             Plain::Leaf(net) => {
                 self.points.extend_from_slice(&net);
+                self.leaves += usize::from(!matches!(target.slot, Slot::Root(_)));
                 self.shapes.push(None);
             }
             Plain::Tail(tail) => {
                 let first = self.points.len();
                 self.points.resize(first + tail.ring_count(), 0);
                 tail.ring(mesh, &mut self.points[first..]);
+                self.rings += tail.ring_count();
+                if !self.valences.contains(&tail.valence) {
+                    self.valences.push(tail.valence);
+                }
                 self.shapes.push(Some([tail.corner, tail.valence]));
             }
             Plain::Other => {
@@ -257,6 +286,41 @@ impl Pieces {
             }
         }
         self.settled.push(target);
+    }
+
+    fn tails(&self) -> usize {
+        self.shapes.iter().flatten().count()
+    }
+
+    /// Writes leaves and tails to their places; numbers of rings start at `first`.
+    fn write(
+        &mut self,
+        points: &Points,
+        smooth: &[u32],
+        leaves: &mut [Sources],
+        tails: &mut [Tail],
+        mut rings: &mut [u32],
+        mut first: u32,
+    ) {
+        let mut numbers = self.points.iter().map(|&vertex| points.of(vertex));
+        let (mut leaves, mut tails) = (leaves.iter_mut(), tails.iter_mut());
+        for (shape, target) in self.shapes.iter().zip(&self.settled) {
+            let Some([corner, valence]) = *shape else {
+                let mut net = [0; 16];
+                net.iter_mut().zip(&mut numbers).for_each(|(point, number)| *point = number);
+                match target.slot {
+                    Slot::Root(root) => self.roots.push((root, Sources(net))),
+                    _ => *leaves.next().expect("leaves were counted") = Sources(net),
+                }
+                continue;
+            };
+            let kind = Kind::Smooth { valence };
+            let (ring, later) = rings.split_at_mut(kind.ring_count());
+            ring.iter_mut().zip(&mut numbers).for_each(|(point, number)| *point = number);
+            *tails.next().expect("tails were counted") =
+                Tail { first, kind: smooth[valence as usize], corner };
+            (rings, first) = (later, first + kind.ring_count() as u32);
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use super::chain::ChainBasis;
 use super::tree::{Node, Piece, Tail};
 use super::users::Users;
 use super::{Location, LocationError, ParametricFace, build};
-use crate::math::{Vec3, simd};
+use crate::math::{Vec3, par, simd};
 use crate::mesh::{FaceId, Topology, VertexId};
 use crate::rules::Level;
 use crate::stencil::StencilTable;
@@ -98,7 +98,7 @@ impl PatchTable {
     /// Costs some 0.1 microseconds a quad with at most one extraordinary vertex, and some two where there are several;
     /// other polygons, creases and boundaries cost some microseconds. Runs on all cores.
     pub fn new(level: &Level) -> PatchTable {
-        build::table(level)
+        par::stay(level.topology().face_count(), || build::table(level))
     }
 
     /// Number of parametric faces, hidden ones included: a quad counts one, any other polygon one per corner, in the
