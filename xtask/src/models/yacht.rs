@@ -101,7 +101,7 @@ pub(super) fn model() -> NetworkModel {
     for _ in 0..STEPS {
         let limits = limit_vertices(&level, &mesh.points);
         for ((point, limit), &offset) in mesh.points.iter_mut().zip(limits).zip(&offsets) {
-            *point = *point + (offset - limit.position);
+            *point += offset - limit.position;
         }
     }
     for p in &mut mesh.points {
