@@ -15,12 +15,12 @@ COMMAND = os.environ.get("OGEE", str(ROOT / "target" / "release" / "ogee"))
 
 def convert(cage: Path, part: Path, *options: str) -> dict[str, Any]:
     """Converts a cage and returns the report."""
-    done = _run("convert", str(cage), "-o", str(part), "--json", *options)
-    if done.returncode != 0:
-        raise AssertionError(f"{' '.join(done.args)}: exit {done.returncode}\n{done.stderr}{done.stdout}")
-    report = json.loads(done.stdout)
-    assert report["schema"] == 1
-    return report
+    return _report("convert", str(cage), "-o", str(part), *options)
+
+
+def network(cage: Path, out: Path, *options: str) -> dict[str, Any]:
+    """Lays the network of curves in a cage's file and returns the report."""
+    return _report("network", str(cage), "-o", str(out), *options)
 
 
 def passes_check(part: Path) -> bool:
@@ -28,6 +28,15 @@ def passes_check(part: Path) -> bool:
     done = _run("check", str(part), "--json")
     assert done.returncode in (0, 1), f"{' '.join(done.args)}: exit {done.returncode}\n{done.stderr}"
     return done.returncode == 0
+
+
+def _report(*arguments: str) -> dict[str, Any]:
+    done = _run(*arguments, "--json")
+    if done.returncode != 0:
+        raise AssertionError(f"{' '.join(done.args)}: exit {done.returncode}\n{done.stderr}{done.stdout}")
+    report = json.loads(done.stdout)
+    assert report["schema"] == 1
+    return report
 
 
 def _run(*arguments: str) -> subprocess.CompletedProcess[str]:

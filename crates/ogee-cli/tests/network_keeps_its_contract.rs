@@ -205,6 +205,30 @@ fn networks_with_errors_write_nothing() {
 }
 
 #[test]
+fn an_octahedron_without_splits_has_too_little_room() {
+    let points = json!([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]]);
+    let faces: Vec<[u32; 3]> = (0..4).flat_map(|i| [[i, (i + 1) % 4, 4], [(i + 1) % 4, i, 5]]).collect();
+    let folder = Folder::new();
+    let lay = |curves: Value, splits: &Value| {
+        let options = json!({"pre_split": splits});
+        let input = json!({"vertices": points, "faces": faces, "curves": curves, "options": options});
+        folder.write("net.json", input.to_string());
+        folder.ogee("network --json net.json -o out.json")
+    };
+    let ring = json!([{"vertices": [5, 3, 0, 4]}, {"vertices": [5, 2, 4]}]);
+    let run = lay(ring.clone(), &json!(0)).expect(3);
+    assert_eq!(run.json()["error"]["code"], "E_REPAIR");
+    assert!(run.first_line().contains("allow one more split"), "{}", run.stderr);
+    assert_eq!(folder.names(), ["net.json"]);
+    assert_eq!(lay(ring, &json!("auto")).expect(0).json()["warnings"], json!([]));
+    let arc = json!([{"vertices": [3, 4, 1]}]);
+    let report = lay(arc.clone(), &json!(0)).expect(0).json();
+    assert_eq!(report["warnings"][0]["code"], "W_X_OVERLAP");
+    assert!(report["curves"][0]["max_error"].as_f64().unwrap() < 1e-14);
+    assert_eq!(lay(arc, &json!("auto")).expect(0).json()["warnings"], json!([]));
+}
+
+#[test]
 fn files_that_are_no_networks_are_refused() {
     let folder = Folder::with_cube();
     for (name, text, code, line) in [
@@ -289,4 +313,116 @@ fn curves_may_be_given_by_points_or_fitted() {
     assert_eq!(refit(&control)["notes"], json!([]));
     let five = json!([[0, 3, 0], [1, 3, 1], [3, 3, 1], [5, 3, 1], [6, 3, 0]]);
     assert_eq!(refit(&five)["notes"][0]["code"], "refitted");
+}
+
+#[test]
+fn curves_alone_get_a_cage() {
+    let cube = golden("cube-wireframe")["input"].clone();
+    let folder = Folder::new();
+    let bare = json!({"vertices": cube["vertices"], "curves": cube["curves"], "options": {"flatten": true}});
+    folder.write("lines.json", bare.to_string());
+    let report = folder.ogee("network --json lines.json -o out.json").expect(0).json();
+    assert_eq!(
+        (report["curves"].as_array().unwrap().len(), report["meetings"].as_array().unwrap().len()),
+        (12, 8)
+    );
+    let off = |report: &Value| {
+        let errors =
+            report["curves"].as_array().unwrap().iter().map(|curve| curve["max_error"].as_f64().unwrap());
+        errors.fold(0.0, f64::max)
+    };
+    assert!(off(&report) < 1e-14);
+    let info = folder.ogee("info --json out.json").expect(0).json();
+    assert_eq!(info["components"][0]["closed"], true);
+
+    // The same as lines of OBJ, and fair.
+    let points = cube["vertices"].as_array().unwrap().iter();
+    let mut text: String = points.map(|p| format!("v {} {} {}\n", p[0], p[1], p[2])).collect();
+    for curve in cube["curves"].as_array().unwrap() {
+        let ids = curve["vertices"].as_array().unwrap().iter().map(|v| (v.as_u64().unwrap() + 1).to_string());
+        text += &format!("l {}\n", ids.collect::<Vec<_>>().join(" "));
+    }
+    folder.write("lines.obj", &text);
+    let fair = folder.ogee("network --json lines.obj --flatten --fair -o fair.json").expect(0).json();
+    assert!(off(&fair) < 1e-13);
+    assert_eq!((&fair["vertices"], &fair["faces"]), (&report["vertices"], &report["faces"]));
+
+    // Three edges in a row enclose nothing.
+    folder.write("open.obj", text.split("l ").take(4).collect::<Vec<_>>().join("l "));
+    let run = folder.ogee("network --json open.obj -o none.json").expect(3);
+    assert_eq!(run.json()["error"]["code"], "E_CURVE_ALONE");
+    // Loops are given where they cannot be seen.
+    let mut given = bare.clone();
+    given["loops"] = json!([[0, 1, 99]]);
+    folder.write("lines.json", given.to_string());
+    let run = folder.ogee("network --json lines.json -o none.json").expect(3);
+    assert_eq!(run.json()["error"]["code"], "E_LOOP_BROKEN");
+    assert!(!folder.path("none.json").exists());
+}
+
+#[test]
+fn wishes_are_read_from_files() {
+    let path = json!([21, 22, 23, 24, 25, 26, 27]);
+    let tilted = json!([null, null, null, [0, 1, 1], null, null, null]);
+    let folder = on_grid(
+        &json!([{"name": "ridge", "vertices": path, "normals": tilted}]),
+        &json!({
+            "options": {"fair": true, "pre_split": 1},
+            "points": [{"vertex": 9, "position": [2, 1, 0.4], "normal": [0, 0, 1]}]
+        }),
+    );
+    // Without the split both rows beside the point are held.
+    let run = folder.ogee("network --json net.json --pre-split 0 -o out.json").expect(3);
+    assert_eq!(run.json()["error"]["code"], "E_CONTRADICTION");
+    let report = folder.ogee("network --json net.json -o out.json").expect(0).json();
+    assert_eq!(report["warnings"], json!([]));
+    assert!(report["curves"][0]["max_error"].as_f64().unwrap() < 1e-13);
+    let at = |vertex: usize| {
+        let out: Value = serde_json::from_slice(&folder.read("out.json")).unwrap();
+        let faces = out["faces"].as_array().unwrap();
+        let corner_of = |face: &Value| face.as_array().unwrap().iter().position(|v| v == vertex);
+        let (face, corner) =
+            faces.iter().enumerate().find_map(|(f, face)| Some((f, corner_of(face)?))).unwrap();
+        let (u, v) = [(0, 0), (1, 0), (1, 1), (0, 1)][corner];
+        folder.write("at.csv", format!("face,corner,u,v\n{face},,{u},{v}\n"));
+        folder.ogee("eval out.json --at at.csv -o at.jsonl").expect(0);
+        let sample: Value = serde_json::from_slice(&folder.read("at.jsonl")).unwrap();
+        let vector = |key: &str| [0, 1, 2].map(|k| sample[key][k].as_f64().unwrap());
+        (vector("position"), vector("normal"))
+    };
+    let near = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-10);
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    assert!(near(at(24).1, [0.0, half, half]), "{:?}", at(24));
+    assert!(near(at(9).0, [2.0, 1.0, 0.4]) && near(at(9).1, [0.0, 0.0, 1.0]), "{:?}", at(9));
+
+    // The papers' own forms by name.
+    let folder = with_network("x6-repaired");
+    let codes = |arguments: &str| -> Vec<String> {
+        let report =
+            folder.ogee(&format!("network --json net.json -o out.json {arguments}")).expect(0).json();
+        let warnings = report["warnings"].as_array().unwrap().iter();
+        warnings.map(|warning| warning["code"].as_str().unwrap().to_owned()).collect()
+    };
+    assert!(codes("--scheme generalised").contains(&"W_T_HALF".to_owned()));
+    assert!(!codes("--scheme abbas-nasri-2004 --t 0.25").contains(&"W_T_HALF".to_owned()));
+    folder.ogee("network net.json -o none.json --scheme abbas-nasri-2004").expect(2);
+}
+
+#[test]
+fn parts_keep_curves_on_edges() {
+    // Row 2 of a grid meets nothing: without its path packing would lay a face across it.
+    let folder = on_grid(&json!([{"name": "row", "vertices": [14, 15, 16, 17, 18, 19, 20]}]), &json!({}));
+    let report = folder.ogee("network --json net.json -o part.step").expect(0).json();
+    assert_eq!(report["part"]["faces_written"], 2);
+    assert!(report["max_edge_error"].as_f64().unwrap() < 1e-13);
+    folder.ogee("check part.step").expect(0);
+    folder.ogee("network net.json -o out.json").expect(0);
+    let part = folder.ogee("convert --json out.json -o again.step").expect(0).json();
+    assert_eq!(part["faces_written"], 2);
+    // Where curves meet, caps.
+    let folder = with_network("x6-repaired");
+    let report = folder.ogee("network --json net.json -o part.step").expect(0).json();
+    assert!(report["max_edge_error"].as_f64().unwrap() < 1e-13);
+    assert!(report["part"]["max_normal_angle_deg"].as_f64().unwrap() < 1e-9);
+    assert_eq!(report["part"]["sharp_edges"], 0);
 }

@@ -7,6 +7,7 @@ use std::process::Command;
 use std::sync::Arc;
 
 use common::{device, with_view};
+use ogee::curve_network::{CurveNetwork, NetworkCurve, embed};
 use ogee::quality::bounding_box;
 use ogee::{ControlMesh, Crease, FaceList, Sharpness, Vec3, shapes};
 use ogee_gpu::{Device, DeviceOptions, GpuSurface, Renderer, Storage};
@@ -141,6 +142,25 @@ fn smooth_surfaces_look_the_same() {
 fn polygons_creases_and_borders_look_the_same() {
     let others = [(false, Sampling::Parameters(1)), (true, Sampling::Polygon(1))];
     compare("pyramid", &pyramid(), &DeviceOptions::default(), &others, &[]);
+}
+
+#[test]
+fn meetings_of_curves_look_the_same() {
+    // Two curves cross on a torus, and one ends.
+    let torus = shapes::torus(8, 6);
+    let row = |j: u32| (0..8).map(move |i| 6 * i + j).collect::<Vec<u32>>();
+    let curve = |vertices: Vec<u32>, closed| NetworkCurve {
+        name: "c".into(),
+        vertices,
+        closed,
+        ..Default::default()
+    };
+    let curves =
+        vec![curve(row(1), true), curve((0..6).collect(), true), curve(row(4)[2..6].to_vec(), false)];
+    let network = CurveNetwork { curves, ..CurveNetwork::default() };
+    let mesh = embed(&network, &torus).expect("room for three curves").mesh;
+    assert!(mesh.meetings.len() >= 3);
+    compare("meetings", &mesh, &DeviceOptions::default(), &[(false, Sampling::Polygon(2))], &FEW);
 }
 
 /// One style for each kind of shader.

@@ -10,7 +10,7 @@ use ogee::curve_network::{
     Crossing, CurveNetwork, NetworkError, NetworkPlan, NetworkWarning, Placing, PreSplit, TargetCurve,
     XMatrix, XRing, least_turn, place, ring_normal,
 };
-use ogee::{ControlMesh, Topology, Vec3};
+use ogee::{ControlMesh, Level, Topology, Vec3, limit_vertices};
 use serde_json::Value;
 
 const TOLERANCE: f64 = 1e-12;
@@ -227,4 +227,34 @@ fn defects_have_their_codes() {
         assert_eq!(code, Err(case["expect"].as_str().unwrap()));
     }
     assert_eq!(list(&document["cases"]).len(), 8);
+}
+
+/// A vertex (number 0) in the middle of its faces, or on the border: neighbours, then the vertices opposite in the faces.
+fn fan(case: &Value) -> ControlMesh {
+    let (edges, diagonals) = (points(&case["e"]), points(&case["f"]));
+    let (n, k) = (edges.len() as u32, diagonals.len() as u32);
+    let faces = (0..k).map(|i| [0, 1 + i, 1 + n + i, 1 + (i + 1) % n]);
+    let all = [point(&case["v"])].into_iter().chain(edges).chain(diagonals);
+    ControlMesh::new(all.collect(), faces.collect())
+}
+
+#[test]
+fn limit_masks_match() {
+    let document = document("limit-masks");
+    let kinds = [("interior", "t1", "t2", 5), ("border", "t_along", "t_cross", 2)];
+    for (kind, first, second, count) in kinds {
+        let cases = list(&document[kind]);
+        assert_eq!(cases.len(), count);
+        for (i, case) in cases.iter().enumerate() {
+            let mesh = fan(case);
+            let limit = limit_vertices(&Level::new(&mesh).unwrap(), &mesh.points)[0];
+            let size = mesh.size();
+            assert!(limit.position.distance(point(&case["limit"])) < TOLERANCE * size, "{kind} {i}");
+            // Two bases of one plane: ours may be another than the masks'.
+            let [t1, t2] = [point(&case[first]), point(&case[second])].map(|t| t.normalized().unwrap());
+            let normal = limit.normal.unwrap();
+            assert!(normal.dot(t1).abs().max(normal.dot(t2).abs()) < TOLERANCE, "{kind} {i}: {normal:?}");
+            assert!(t1.cross(t2).length() > 0.1, "{kind} {i}");
+        }
+    }
 }

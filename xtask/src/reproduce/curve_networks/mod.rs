@@ -1,4 +1,4 @@
-//! A. Nasri and A. Abbas, Interpolating multiple intersecting curves using Catmull-Clark subdivision surfaces (2004), and their
+//! A. Abbas and A. Nasri, Interpolating multiple intersecting curves using Catmull-Clark subdivision surfaces (2004), and their
 //! generalised scheme: the figures, and the eigen-analysis that was left as further work.
 
 mod body;
@@ -55,7 +55,7 @@ pub(crate) fn write(root: &Path) -> Result<Vec<String>> {
 const INTRODUCTION: &str = "\
 # Networks of curves in a Catmull-Clark surface
 
-Made by `cargo xtask reproduce curve-networks`, after A. Nasri and A. Abbas, *Interpolating multiple intersecting curves using
+Made by `cargo xtask reproduce curve-networks`, after A. Abbas and A. Nasri, *Interpolating multiple intersecting curves using
 Catmull-Clark subdivision surfaces* (2004), and their generalised scheme. The method is on [its page](../methods/curve_network.md).
 
 The papers' models are not published; here are others of the same kinds. On the left is the surface with its curves, on the right
