@@ -1,5 +1,5 @@
 //! Chores of the workspace. `models [DIR]` writes the shipped cages, `bench` times whole commands, `bench limit`
-//! evaluation beside other programs; `bench-worker` is a part of that. `reproduce interrogation` and
+//! evaluation beside other programs, `bench threads` what a second thread gains; `bench-worker` is a part of that. `reproduce interrogation` and
 //! `reproduce curve-networks` make papers' figures and tables again, `bless` the pictures that tests compare with.
 
 mod bench;
@@ -31,6 +31,7 @@ fn main() -> Result<()> {
             print!("{}", bench::commands::table()?);
             Ok(())
         }
+        ["bench", "threads"] => bench::threads::compare(&mut std::io::stdout()),
         ["bench", "limit"] => bench::limit::compare(&mut std::io::stdout()),
         ["bench", "limit", task] => bench::limit::compare_times(&mut std::io::stdout(), task),
         ["reproduce", "interrogation"] => {
@@ -59,7 +60,7 @@ fn main() -> Result<()> {
         }
         _ => {
             bail!(
-                "usage: cargo xtask models [DIR] | bench [limit [TASK]] | reproduce interrogation|curve-networks | bless"
+                "usage: cargo xtask models [DIR] | bench [limit [TASK] | threads] | reproduce interrogation|curve-networks | bless"
             )
         }
     }

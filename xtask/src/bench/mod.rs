@@ -10,4 +10,5 @@ pub(crate) mod limit;
 mod peers;
 pub(crate) mod report;
 mod speed;
+pub(crate) mod threads;
 pub(crate) mod worker;

@@ -45,7 +45,7 @@ pub(crate) struct Network {
     save_curves: Option<PathBuf>,
     #[command(flatten)]
     options: Laying,
-    #[command(flatten)]
+    #[command(flatten, next_help_heading = "Part")]
     part: PartArguments,
 }
 
