@@ -5,12 +5,12 @@
 mod golden;
 mod networks;
 
-use networks::along;
+use networks::surface_error;
 use ogee::curve_network::{
     CurveNetwork, Embedding, NetworkCurve, NetworkOptions, PointConstraint, PreSplit, embed,
 };
 use ogee::fairing::{Constraint, FairingError, FairingOptions, fair};
-use ogee::{ControlMesh, FaceList, Level, LimitSurface, PatchTable, Vec3, VertexId, limit_vertices, shapes};
+use ogee::{ControlMesh, FaceList, Level, Vec3, VertexId, limit_vertices, shapes};
 use std::f64::consts::{PI, TAU};
 
 fn icosahedron() -> ControlMesh {
@@ -187,23 +187,6 @@ fn what_nothing_asks_of_stays() {
     assert!(matches!(fair(&mesh, &[], &thrice), Err(FairingError::Splits { splits: 3 })));
 }
 
-fn curves_off(embedding: &Embedding) -> f64 {
-    let level = Level::new(&embedding.mesh).unwrap();
-    let table = PatchTable::new(&level);
-    let surface = LimitSurface::new(&table, &embedding.mesh.points);
-    let mut worst = 0.0_f64;
-    for segment in &embedding.segments {
-        let path = &segment.vertices;
-        for k in 0..segment.target.spans() {
-            for t in [0.0, 0.02, 0.5, 0.77] {
-                let at = along(&level, &table, [path[k], path[(k + 1) % path.len()]], t);
-                worst = worst.max(surface.eval(at).position.distance(segment.target.point(k as f64 + t)));
-            }
-        }
-    }
-    worst
-}
-
 #[test]
 fn networks_keep_their_curves_and_get_their_points() {
     let mut sheet = shapes::grid(8, 7);
@@ -232,7 +215,7 @@ fn networks_keep_their_curves_and_get_their_points() {
     for splits in [0, 1] {
         network.options.pre_split = PreSplit::Fixed(splits);
         let embedding = embed(&network, &sheet).unwrap();
-        assert!(curves_off(&embedding) < 1e-12 * sheet.size(), "{:e}", curves_off(&embedding));
+        assert!(surface_error(&embedding) < 1e-12 * sheet.size(), "{:e}", surface_error(&embedding));
         let found = limits(&embedding.mesh, &embedding.mesh.points);
         for wanted in &network.points {
             let limit = found[wanted.vertex as usize];
@@ -247,7 +230,7 @@ fn networks_keep_their_curves_and_get_their_points() {
     network.curves[1].vertices.truncate(4);
     network.curves.push(shaped);
     let embedding = embed(&network, &sheet).unwrap();
-    assert!(curves_off(&embedding) < 1e-12 * sheet.size());
+    assert!(surface_error(&embedding) < 1e-12 * sheet.size());
     // A point on a curve: where the curve is, or nowhere.
     let (segment, at) = embedding
         .segments

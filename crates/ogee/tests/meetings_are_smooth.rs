@@ -6,14 +6,12 @@
 mod golden;
 mod networks;
 
-use networks::{along, cages, octahedron, walks};
+use networks::{cages, octahedron, surface_error, walks};
 use ogee::curve_network::{
     Crossing, CurveNetwork, Embedding, NetworkCurve, NetworkOptions, TargetCurve, XMatrix, XRing,
     control_point, default_parameter, embed,
 };
-use ogee::{
-    ControlMesh, FaceList, Level, LimitSurface, Meeting, PatchTable, Topology, Vec3, VertexId, shapes,
-};
+use ogee::{ControlMesh, FaceList, Level, Meeting, Topology, Vec3, VertexId, shapes};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 
@@ -172,24 +170,6 @@ fn curve_error(embedding: &Embedding) -> f64 {
             if !((i == 0 && segment.meets[0]) || (i == last && segment.meets[1])) {
                 let [l, m, r] = [left, v, right].map(|v| embedding.mesh.points[v as usize]);
                 worst = worst.max(control_point(l, m, r).distance(segment.target.control()[i]));
-            }
-        }
-    }
-    worst
-}
-
-/// The largest distance of the limit surface from the curves.
-fn surface_error(embedding: &Embedding) -> f64 {
-    let level = Level::new(&embedding.mesh).unwrap();
-    let table = PatchTable::new(&level);
-    let surface = LimitSurface::new(&table, &embedding.mesh.points);
-    let mut worst = 0.0_f64;
-    for segment in &embedding.segments {
-        let path = &segment.vertices;
-        for k in 0..segment.target.spans() {
-            for t in [0.0, 0.013, 0.4, 0.77] {
-                let at = along(&level, &table, [path[k], path[(k + 1) % path.len()]], t);
-                worst = worst.max(surface.eval(at).position.distance(segment.target.point(k as f64 + t)));
             }
         }
     }

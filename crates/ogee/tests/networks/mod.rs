@@ -3,10 +3,10 @@
 #![allow(dead_code, unreachable_pub, reason = "each claim uses a part of it")]
 
 use super::golden::{documents, faces, index, list, number, points};
-use ogee::curve_network::NetworkCurve;
+use ogee::curve_network::{Embedding, NetworkCurve};
 use ogee::{
-    Boundary, ControlMesh, Corner, FaceList, HalfedgeId, Level, Location, Meeting, PatchTable, Sharpness,
-    Topology, Vec3, VertexId, shapes,
+    Boundary, ControlMesh, Corner, FaceList, HalfedgeId, Level, LimitSurface, Location, Meeting, PatchTable,
+    Sharpness, Topology, Vec3, VertexId, shapes,
 };
 use proptest::prelude::*;
 use serde_json::Value;
@@ -62,6 +62,24 @@ pub fn along(level: &Level, table: &PatchTable, [a, b]: [u32; 2], t: f64) -> Loc
         _ => (0.0, 1.0 - t),
     };
     table.locate(face, None, u, v).unwrap()
+}
+
+/// The largest distance of the limit surface from the curves.
+pub fn surface_error(embedding: &Embedding) -> f64 {
+    let level = Level::new(&embedding.mesh).unwrap();
+    let table = PatchTable::new(&level);
+    let surface = LimitSurface::new(&table, &embedding.mesh.points);
+    let mut worst = 0.0_f64;
+    for segment in &embedding.segments {
+        let path = &segment.vertices;
+        for k in 0..segment.target.spans() {
+            for t in [0.0, 0.013, 0.4, 0.77] {
+                let at = along(&level, &table, [path[k], path[(k + 1) % path.len()]], t);
+                worst = worst.max(surface.eval(at).position.distance(segment.target.point(k as f64 + t)));
+            }
+        }
+    }
+    worst
 }
 
 /// The octahedron: eight triangles, six vertices of valence 4.
