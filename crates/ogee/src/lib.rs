@@ -74,6 +74,7 @@
 //! | [`stam`] | the limit surface a second time, by eigenvectors, at smooth interior vertices |
 //! | [`pccm`] | one smooth patch per quad, and packing them into few |
 //! | [`curve_network`] | curves that the surface is to contain: which can be, where they meet, room for them in the cage |
+//! | [`lens`] | vertices of valence 2 and poles: detection, re-meshing, C2 caps |
 //! | [`quality`] | measuring instruments: reflected rays, lines on the surface, continuity |
 //! | [`convert`] | the whole journey from a cage to a part, with its figures |
 //!
@@ -96,6 +97,7 @@ pub mod convert;
 mod crease;
 pub mod curve_network;
 pub mod fairing;
+pub mod lens;
 mod limit;
 pub mod math;
 pub mod mesh;
@@ -115,7 +117,7 @@ pub use limit::{
 pub use math::{Curvature, Grid, Interpolate, SurfaceJet, Vec3};
 pub use mesh::{
     Boundary, ControlMesh, Corner, Crease, Creasing, Defect, EdgeId, FaceId, FaceList, FaceVarying,
-    FaceVaryingRule, HalfedgeId, Meeting, Note, Place, Scheme, Sharpness, Statistics, Topology,
+    FaceVaryingRule, HalfedgeId, LensShape, Meeting, Note, Place, Scheme, Sharpness, Statistics, Topology,
     TopologyError, Valence, VertexId, shapes,
 };
 pub use patch::{Location, LocationError, ParametricFace, PatchStatistics, PatchTable};

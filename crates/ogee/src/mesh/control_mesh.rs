@@ -70,6 +70,22 @@ pub struct Scheme {
     pub creasing: Creasing,
 }
 
+/// Shape of the rule at an inner vertex of valence 2: weight of its neighbours and of the opposite corners
+/// (`docs/methods/lens.md`).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LensShape {
+    /// Weight of the two neighbours together.
+    pub beta: f64,
+    /// Weight of the two opposite corners together.
+    pub gamma: f64,
+}
+
+impl Default for LensShape {
+    fn default() -> LensShape {
+        LensShape { beta: 0.5, gamma: 0.125 }
+    }
+}
+
 /// Rule at the boundary of the mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Boundary {

@@ -11,8 +11,8 @@ pub(crate) mod topology;
 
 pub use check::{Defect, Note, Place, TopologyError, check, notes};
 pub use control_mesh::{
-    Boundary, ControlMesh, Corner, Crease, Creasing, FaceList, FaceVarying, FaceVaryingRule, Meeting, Scheme,
-    Sharpness,
+    Boundary, ControlMesh, Corner, Crease, Creasing, FaceList, FaceVarying, FaceVaryingRule, LensShape,
+    Meeting, Scheme, Sharpness,
 };
 pub use ids::{EdgeId, FaceId, HalfedgeId, VertexId};
 pub use statistics::{Component, Statistics};

@@ -1,0 +1,1 @@
+//! The published bi-4 stencils, and what follows from them.

@@ -1,0 +1,1 @@
+//! Which vertices are lenses, pairs and poles, and what their neighbourhoods allow.

@@ -1,0 +1,1 @@
+//! The w-plane: which point of a lens's neighbourhood has which number.

@@ -1,0 +1,1 @@
+//! The mask of a vertex of valence 2.
