@@ -6,21 +6,23 @@ mod bodies;
 mod curves;
 mod deviation;
 mod measure;
+mod outline;
 mod part;
 mod sew;
 
 pub use curves::largest_distance_to_edges;
 pub use part::{Body, Method, Part, Report};
 
+use crate::lens::Cap;
 use crate::math::{Grid, Vec3, par};
 use crate::mesh::{ControlMesh, FaceId, HalfedgeId, Meeting, Note, TopologyError, VertexId, notes};
 use crate::nurbs::{FaceAddress, KnotVector, NurbsSurface};
-use crate::pccm::{self, Layer, PccmError, Pieces, least_level, pack, unpacked};
+use crate::pccm::{self, Chart, Layer, PccmError, Pieces, least_level, pack, unpacked};
 use crate::refine::TooDeep;
 use crate::rules::Level;
 use deviation::{Measured, QuadCell};
 use measure::Continuity;
-use sew::Face;
+use outline::{Face, Seams};
 
 /// The greatest level that [`to_part`] tries when asked for a deviation, and accepts when asked for a level.
 pub const DEEPEST_LEVEL: u32 = 6;
@@ -220,6 +222,9 @@ struct Source {
     /// For each quad the piece of the cage that it is.
     addresses: Vec<FaceAddress>,
     cage_faces: usize,
+    caps: Vec<Cap>,
+    /// Refinements from the cage that the caps belong to.
+    cap_steps: u32,
 }
 
 impl Source {
@@ -241,6 +246,8 @@ impl Source {
             points: centred,
             quads: cage.clone(),
             cage: None,
+            caps: Vec::new(),
+            cap_steps: 0,
         };
         if !topology.is_quads() {
             let corners = faces.flat_map(|face| {
@@ -360,13 +367,12 @@ impl<'a> Converted<'a> {
     }
 
     /// Charts with their surfaces, in quads.
-    fn faces(&self, packing: Packing, seams: &[HalfedgeId]) -> Vec<Face> {
+    fn charts(&self, packing: Packing, seams: &[HalfedgeId]) -> Vec<(Chart, NurbsSurface)> {
         let Kind::Bicubic { patches, layer } = &self.kind else {
-            let faces = unpacked(&self.base).into_iter().map(|chart| {
-                let surface = self.surfaces[chart.quads[(0, 0)].quad as usize].clone();
-                Face { chart, surface }
-            });
-            return faces.collect();
+            let charts = unpacked(&self.base);
+            let surface = |chart: &Chart| self.surfaces[chart.quads[(0, 0)].quad as usize].clone();
+            let surfaces: Vec<NurbsSurface> = charts.iter().map(surface).collect();
+            return charts.into_iter().zip(surfaces).collect();
         };
         let charts = match packing {
             Packing::Packed => pack(&self.base, &patches.classes, seams),
@@ -374,7 +380,7 @@ impl<'a> Converted<'a> {
         };
         let pieces = Pieces::new(&self.base, &self.points, patches, *layer);
         let surfaces = par::map(charts.len(), |chart| pieces.surface(&charts[chart]));
-        charts.into_iter().zip(surfaces).map(|(chart, surface)| Face { chart, surface }).collect()
+        charts.into_iter().zip(surfaces).collect()
     }
 
     /// The piece of the cage that a quad of the base is. A quintic base that was refined has a patch per corner.
@@ -418,7 +424,14 @@ fn finish(
     let mut all_notes = notes(mesh);
     all_notes.extend_from_slice(patches.notes());
     let address = |quad: u32| patches.address(source, quad);
-    let shells = sew::sew(&patches.base, patches.faces(options.packing, seams), patches.broken(), address);
+    let mut sewing = Seams::new(&patches.base, patches.broken());
+    let charts = patches.charts(options.packing, seams);
+    let mut faces: Vec<Face> =
+        charts.into_iter().map(|(chart, surface)| sewing.chart(&chart, surface, address)).collect();
+    for cap in &source.caps {
+        faces.extend(sewing.cap(cap, source.cap_steps));
+    }
+    let shells = sew::sew(&sewing, faces);
     let mut bodies = bodies::bodies(shells, &mut all_notes);
 
     for body in &mut bodies {

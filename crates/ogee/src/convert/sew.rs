@@ -1,50 +1,31 @@
-//! Sewing: charts to shells whose faces share edges and vertices.
+//! Sewing: faces with their outlines to shells whose faces share edges and vertices.
 //!
-//! Vertices of the part are the base vertices at which some chart has a corner; a side with such a vertex in its
-//! middle (a T) is split there, its surface stays whole.
+//! Vertices of the part are the vertices at which some face has a corner; a side with such a vertex in its middle (a T)
+//! is split there, its surface stays whole.
 
-use crate::math::{Grid, Vec3};
-use crate::mesh::HalfedgeId;
-use crate::nurbs::{EdgeUse, FaceAddress, NurbsCurve, NurbsSurface, Shell, ShellEdge, ShellFace, Side};
-use crate::pccm::{Chart, Placed};
-use crate::rules::Level;
+use super::outline::{Course, Face, SIDES, Seams};
+use crate::math::Vec3;
+use crate::nurbs::{EdgeUse, NurbsCurve, NurbsSurface, Shell, ShellEdge, ShellFace, Side};
 
-const SIDES: [Side; 4] = [Side::V0, Side::U1, Side::V1, Side::U0];
-
-/// A chart with its surface, one unit of knot per quad.
-pub(super) struct Face {
-    pub(super) chart: Chart,
-    pub(super) surface: NurbsSurface,
-}
-
-/// A piece of a side of a chart between two vertices of the part, in the direction of the loop.
+/// A piece of a side of a face between two vertices of the part, in the direction of the loop.
 struct Segment {
     side: Side,
-    /// The base halfedges along it.
-    halfedges: Vec<HalfedgeId>,
+    courses: Vec<Course>,
     /// The surface's parameter at its ends.
     range: [f64; 2],
 }
 
-/// Sews faces into connected shells, in the order of their first faces. `broken` are base halfedges whose edge is not
-/// smooth next to their origin; `address` names a quad of the base.
-pub(super) fn sew(
-    base: &Level,
-    mut faces: Vec<Face>,
-    broken: &[HalfedgeId],
-    address: impl Fn(u32) -> FaceAddress,
-) -> Vec<Shell> {
-    let corners = place_corners(base, &mut faces);
-    let segments: Vec<Vec<Segment>> =
-        faces.iter().map(|face| segments(base, &face.chart, &corners)).collect();
+/// Sews faces into connected shells, in the order of their first faces.
+pub(super) fn sew(seams: &Seams<'_>, mut faces: Vec<Face>) -> Vec<Shell> {
+    let corners = place_corners(seams, &mut faces);
+    let segments: Vec<Vec<Segment>> = faces.iter().map(|face| segments(face, &corners)).collect();
     let mut sewn = Sewn {
-        base,
+        seams,
         faces: &faces,
         segments: &segments,
-        starts: segment_starts(base, &segments),
+        sides: course_sides(seams, &segments),
         corners: &corners,
-        is_broken: halfedge_flags(base, broken),
-        edge_of: vec![None; base.topology().edge_count()],
+        edge_of: vec![None; seams.course_count()],
         edges: Vec::new(),
     };
     let mut loops = Vec::with_capacity(faces.len());
@@ -56,144 +37,144 @@ pub(super) fn sew(
         adopt_edges(&mut face.surface, boundary, &edges);
     }
     let faces = faces.into_iter().zip(loops).map(|(face, boundary)| ShellFace {
-        quads: face.chart.quads.map(|placed| address(placed.quad)),
+        quads: face.pieces,
         surface: face.surface,
         boundary,
     });
     split_shells(faces.collect(), edges, &corners)
 }
 
-fn halfedge_flags(base: &Level, marked: &[HalfedgeId]) -> Vec<bool> {
-    let mut flags = vec![false; base.topology().halfedge_count()];
-    for h in marked {
-        flags[h.index()] = true;
-    }
-    flags
-}
-
-/// The quads along a side of a chart, in the direction of the loop.
-fn side_quads(quads: &Grid<Placed>, side: usize) -> Vec<Placed> {
-    let (width, height) = (quads.rows(), quads.cols());
+/// Net points along a side, in the direction of the loop.
+fn side_points(surface: &NurbsSurface, side: Side) -> Vec<(usize, usize)> {
+    let (rows, cols) = (surface.net.rows(), surface.net.cols());
     match side {
-        0 => (0..width).map(|i| quads[(i, 0)]).collect(),
-        1 => (0..height).map(|j| quads[(width - 1, j)]).collect(),
-        2 => (0..width).rev().map(|i| quads[(i, height - 1)]).collect(),
-        _ => (0..height).rev().map(|j| quads[(0, j)]).collect(),
+        Side::V0 => (0..rows).map(|i| (i, 0)).collect(),
+        Side::U1 => (0..cols).map(|j| (rows - 1, j)).collect(),
+        Side::V1 => (0..rows).rev().map(|i| (i, cols - 1)).collect(),
+        Side::U0 => (0..cols).rev().map(|j| (0, j)).collect(),
     }
 }
 
-/// The position of every base vertex that is a corner of some chart. All surfaces get the same one, bit for bit.
-fn place_corners(base: &Level, faces: &mut [Face]) -> Vec<Option<Vec3>> {
-    let mut corners = vec![None; base.topology().vertex_count()];
+/// The position of every vertex that is a corner of some face. All surfaces get the same one, bit for bit; a side that
+/// is one point gets it all along.
+fn place_corners(seams: &Seams<'_>, faces: &mut [Face]) -> Vec<Option<Vec3>> {
+    let mut corners = seams.positions();
     for face in faces {
-        let (rows, cols) = (face.surface.net.rows(), face.surface.net.cols());
-        let ends = [(0, 0), (rows - 1, 0), (rows - 1, cols - 1), (0, cols - 1)];
-        for (side, at) in ends.into_iter().enumerate() {
-            let h = side_quads(&face.chart.quads, side)[0].halfedge(side as u32);
-            let v = base.topology().origin(h).index();
-            match corners[v] {
-                Some(position) => face.surface.net[at] = position,
-                None => corners[v] = Some(face.surface.net[at]),
+        for (number, side) in SIDES.into_iter().enumerate() {
+            let points = side_points(&face.surface, side);
+            let (Some(first), Some(last)) = (face.sides[number].first(), face.sides[number].last()) else {
+                // A pole: the corner where the side before it ends.
+                if let Some(pole) = face.sides[(number + 3) % 4].last() {
+                    let position =
+                        *corners[pole.course.to as usize].get_or_insert(face.surface.net[points[0]]);
+                    points.into_iter().for_each(|at| face.surface.net[at] = position);
+                }
+                continue;
+            };
+            for (v, at) in [(first.course.from, points[0]), (last.course.to, points[points.len() - 1])] {
+                face.surface.net[at] = *corners[v as usize].get_or_insert(face.surface.net[at]);
             }
         }
     }
     corners
 }
 
-fn segments(base: &Level, chart: &Chart, corners: &[Option<Vec3>]) -> Vec<Segment> {
+fn segments(face: &Face, corners: &[Option<Vec3>]) -> Vec<Segment> {
     let mut segments = Vec::new();
-    for (number, side) in SIDES.into_iter().enumerate() {
-        let quads = side_quads(&chart.quads, number);
-        let length = quads.len() as f64;
-        let mut start = 0.0;
-        let mut halfedges = Vec::new();
-        for (step, placed) in quads.iter().enumerate() {
-            let h = placed.halfedge(number as u32);
-            halfedges.push(h);
-            let end = (step + 1) as f64;
-            if step + 1 < quads.len() && corners[base.topology().target(h).index()].is_none() {
-                continue;
+    for (side, steps) in SIDES.into_iter().zip(&face.sides) {
+        let mut courses = Vec::new();
+        let mut start = None;
+        for step in steps {
+            let from = *start.get_or_insert(step.range[0]);
+            courses.push(step.course);
+            if corners[step.course.to as usize].is_some() {
+                segments.push(Segment {
+                    side,
+                    courses: std::mem::take(&mut courses),
+                    range: [from, step.range[1]],
+                });
+                start = None;
             }
-            let range = match side {
-                Side::V0 | Side::U1 => [start, end],
-                Side::V1 | Side::U0 => [length - start, length - end],
-            };
-            segments.push(Segment { side, halfedges: std::mem::take(&mut halfedges), range });
-            start = end;
         }
     }
     segments
 }
 
-/// By base halfedge: face and number of the segment that begins with it.
-fn segment_starts(base: &Level, segments: &[Vec<Segment>]) -> Vec<Option<(usize, usize)>> {
-    let mut starts = vec![None; base.topology().halfedge_count()];
-    for (face, sides) in segments.iter().enumerate() {
-        for (number, segment) in sides.iter().enumerate() {
-            starts[segment.halfedges[0].index()] = Some((face, number));
+/// By course and direction: the face on that side, and the segment that begins with the course.
+fn course_sides(seams: &Seams<'_>, segments: &[Vec<Segment>]) -> Vec<CourseSide> {
+    let mut sides = vec![CourseSide::Bare; 2 * seams.course_count()];
+    for (face, own) in segments.iter().enumerate() {
+        for (number, segment) in own.iter().enumerate() {
+            for course in &segment.courses {
+                sides[course.side()] = CourseSide::Used;
+            }
+            sides[segment.courses[0].side()] = CourseSide::Begins { face, number };
         }
     }
-    starts
+    sides
+}
+
+/// What lies to the left of a course.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum CourseSide {
+    /// No face.
+    Bare,
+    /// A face.
+    Used,
+    /// A face, one of whose segments begins here.
+    Begins { face: usize, number: usize },
 }
 
 struct Sewn<'a> {
-    base: &'a Level,
+    seams: &'a Seams<'a>,
     faces: &'a [Face],
     segments: &'a [Vec<Segment>],
-    starts: Vec<Option<(usize, usize)>>,
+    sides: Vec<CourseSide>,
     corners: &'a [Option<Vec3>],
-    is_broken: Vec<bool>,
-    /// By base edge: the shell edge it belongs to, once made, and the base halfedge that it begins with.
-    edge_of: Vec<Option<(u32, HalfedgeId)>>,
-    /// Ends are base vertices until the shells are split.
+    /// By course: the shell edge it belongs to, once made, and whether that runs along the course's own direction.
+    edge_of: Vec<Option<(u32, bool)>>,
+    /// Ends are vertices of the sewing until the shells are split.
     edges: Vec<ShellEdge>,
 }
 
 impl Sewn<'_> {
     fn use_edge(&mut self, face: usize, segment: &Segment) -> EdgeUse {
-        let topology = self.base.topology();
-        let first = segment.halfedges[0];
-        let (edge, start) = match self.edge_of[topology.edge(first).index()] {
+        let first = segment.courses[0];
+        let (edge, along) = match self.edge_of[first.key as usize] {
             Some(found) => found,
             None => {
-                let made = (self.edges.len() as u32, first);
                 let edge = self.make_edge(face, segment);
+                let number = self.edges.len() as u32;
                 self.edges.push(edge);
-                for &h in &segment.halfedges {
-                    self.edge_of[topology.edge(h).index()] = Some(made);
+                for course in &segment.courses {
+                    self.edge_of[course.key as usize] = Some((number, course.forward));
                 }
-                made
+                (number, first.forward)
             }
         };
-        EdgeUse { edge, forward: start == first, side: segment.side, range: segment.range }
+        EdgeUse { edge, forward: along == first.forward, side: segment.side, range: segment.range }
     }
 
-    /// The edge of a segment, running as its loop does; its curve comes from whichever side has fewer knots on it.
+    /// The edge of a segment, running as its loop does; its curve comes from whichever side has fewer coefficients on it.
     fn make_edge(&self, face: usize, segment: &Segment) -> ShellEdge {
-        let topology = self.base.topology();
-        let (first, last) = (segment.halfedges[0], segment.halfedges[segment.halfedges.len() - 1]);
+        let (first, last) = (segment.courses[0], segment.courses[segment.courses.len() - 1]);
         let mut curve = segment.curve(&self.faces[face].surface);
-        if let Some((other, number)) = topology.twin(last).and_then(|twin| self.starts[twin.index()]) {
+        if let CourseSide::Begins { face: other, number } = self.sides[last.reversed().side()] {
             let candidate = self.segments[other][number].curve(&self.faces[other].surface);
             if candidate.points.len() < curve.points.len() {
                 curve = candidate.reversed();
             }
         }
-        let (start, end) = (topology.origin(first), topology.target(last));
         let count = curve.points.len();
-        for (at, v) in [(0, start), (count - 1, end)] {
-            if let Some(position) = self.corners[v.index()] {
+        for (at, v) in [(0, first.from), (count - 1, last.to)] {
+            if let Some(position) = self.corners[v as usize] {
                 curve.points[at] = position;
             }
         }
-        let broken = |h: HalfedgeId| {
-            self.base.is_sharp(h)
-                || self.is_broken[h.index()]
-                || topology.twin(h).is_none_or(|twin| {
-                    self.is_broken[twin.index()] || !self.base.is_visible(topology.face(twin))
-                })
+        let is_smooth = |course: &Course| {
+            self.sides[course.reversed().side()] != CourseSide::Bare && self.seams.is_smooth(course.key)
         };
-        ShellEdge { start: start.0, end: end.0, curve, smooth: !segment.halfedges.iter().any(|&h| broken(h)) }
+        ShellEdge { start: first.from, end: last.to, curve, smooth: segment.courses.iter().all(is_smooth) }
     }
 }
 
@@ -220,14 +201,11 @@ fn adopt_edges(surface: &mut NurbsSurface, boundary: &[EdgeUse], edges: &[ShellE
         if curve.knots != surface.side(used.side).knots {
             continue;
         }
-        let (rows, cols) = (surface.net.rows(), surface.net.cols());
-        for (k, &point) in curve.points.iter().enumerate() {
-            let at = match used.side {
-                Side::V0 => (k, 0),
-                Side::U1 => (rows - 1, k),
-                Side::V1 => (k, cols - 1),
-                Side::U0 => (0, k),
-            };
+        let mut points = side_points(surface, used.side);
+        if matches!(used.side, Side::V1 | Side::U0) {
+            points.reverse();
+        }
+        for (at, &point) in points.into_iter().zip(&curve.points) {
             surface.net[at] = point;
         }
     }
@@ -239,7 +217,7 @@ fn split_shells(faces: Vec<ShellFace>, edges: Vec<ShellEdge>, corners: &[Option<
     let mut faces: Vec<Option<ShellFace>> = faces.into_iter().map(Some).collect();
     let mut edges: Vec<Option<ShellEdge>> = edges.into_iter().map(Some).collect();
     let mut edge_ids = vec![0; edges.len()];
-    // By base vertex: the shell that met it last, and its number there. Two shells may touch in a vertex.
+    // By vertex: the shell that met it last, and its number there. Two shells may touch in a vertex.
     let mut vertex_ids = vec![(usize::MAX, 0); corners.len()];
     let shells = groups.into_iter().enumerate().map(|(number, group)| {
         let mut shell = Shell::default();

@@ -2,7 +2,7 @@
 
 use super::defect::{NetworkDefect, NetworkError};
 use super::plan::{NetworkPlan, Segment};
-use crate::mesh::{Boundary, ControlMesh, Corner, Crease, FaceList, FaceVarying, Sharpness, VertexId};
+use crate::mesh::{ControlMesh, FaceVarying, VertexId};
 use crate::rules::Level;
 
 impl NetworkPlan {
@@ -31,7 +31,7 @@ impl NetworkPlan {
         if self.pre_split == 0 {
             return Ok((mesh.clone(), plan));
         }
-        let mut cage = to_cage(&level, points);
+        let mut cage = level.to_cage(points);
         let rule = mesh.uv.as_ref().map(|uv| uv.rule).unwrap_or_default();
         cage.uv = texture.map(|(level, values)| {
             let indices = level.topology().origin.to_vec();
@@ -56,34 +56,4 @@ fn refined(segment: &Segment, level: &Level) -> Segment {
         edge.map_or(from, |edge| first_edge_point + edge.0)
     });
     Segment { vertices: vertices.collect(), target, ..segment.clone() }
-}
-
-/// A level as a cage of its own.
-fn to_cage(level: &Level, points: Vec<crate::math::Vec3>) -> ControlMesh {
-    let topology = level.topology();
-    let mut faces = FaceList::with_capacity(topology.face_count(), topology.halfedge_count());
-    for quad in topology.origin.chunks_exact(4) {
-        faces.push(quad);
-    }
-    let mut mesh = ControlMesh::new(points, faces);
-    for h in topology.edge_halfedges().filter(|&h| topology.twin(h).is_some()) {
-        let sharpness = level.edge_sharpness(h);
-        if sharpness > 0.0 {
-            let vertices = [topology.origin(h).0, topology.target(h).0];
-            mesh.creases.push(Crease { vertices, sharpness: Sharpness::from_value(sharpness) });
-        }
-    }
-    for vertex in 0..topology.vertex_count() as u32 {
-        let sharpness = level.vertex_sharpness(VertexId(vertex));
-        if sharpness > 0.0 {
-            mesh.corners.push(Corner { vertex, sharpness: Sharpness::from_value(sharpness) });
-        }
-    }
-    mesh.holes = level.hidden_faces().iter().map(|f| f.0).collect();
-    mesh.scheme = level.scheme();
-    if mesh.scheme.boundary == Boundary::None {
-        // What it leaves out is a hole by now; said again it would leave out more.
-        mesh.scheme.boundary = Boundary::EdgeOnly;
-    }
-    mesh
 }

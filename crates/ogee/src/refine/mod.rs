@@ -1,6 +1,7 @@
 //! Refinement: every halfedge becomes four.
 
 mod ahead;
+mod cage;
 mod fine;
 mod points;
 pub(crate) mod split;
