@@ -14,8 +14,9 @@ use crate::rules::Level;
 pub struct LimitVertex {
     /// The limit position.
     pub position: Vec3,
-    /// The unit normal; on a crease or at a corner the mean of the sides. `None` where the surface is singular, or at
-    /// an isolated vertex.
+    /// The unit normal; on a crease or at a corner the mean of the sides. `None` where the surface is singular, at a vertex of
+    /// valence 2 without a tangent plane (sharp itself, or of an unusual shape with a crease that ends there), or at an
+    /// isolated vertex.
     pub normal: Option<Vec3>,
 }
 
