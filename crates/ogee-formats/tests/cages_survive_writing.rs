@@ -3,8 +3,8 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot unwrap has failed")]
 
 use ogee::{
-    Boundary, ControlMesh, Corner, Crease, Creasing, FaceVarying, FaceVaryingRule, Meeting, Scheme,
-    Sharpness, Vec3, shapes,
+    Boundary, ControlMesh, Corner, Crease, Creasing, FaceVarying, FaceVaryingRule, LensShape, Meeting,
+    Scheme, Sharpness, Vec3, shapes,
 };
 use ogee_formats::{CageFormat, MeshFormat, MeshView, Placement, json, obj, read_cage, write_mesh};
 
@@ -26,7 +26,8 @@ fn rich_cage() -> ControlMesh {
     cage.holes = vec![5, 2];
     // Whether curves can meet there is not for the file to say.
     cage.meetings = vec![Meeting { vertex: 3, ports: vec![2, 7, 1], t: 1.0 / 3.0 }];
-    cage.scheme = Scheme { boundary: Boundary::EdgeOnly, creasing: Creasing::Chaikin };
+    let lens = LensShape { beta: 1.0 / 3.0, gamma: 0.1 };
+    cage.scheme = Scheme { boundary: Boundary::EdgeOnly, creasing: Creasing::Chaikin, lens };
     cage.uv = Some(FaceVarying {
         values: vec![[0.0, 0.1], [1e-7, 0.5], [2.0 / 3.0, 1.0]],
         indices: (0..24).map(|i| i % 3).collect(),
@@ -52,9 +53,10 @@ fn through_json(cage: &ControlMesh) -> ControlMesh {
     read.mesh
 }
 
-/// OBJ has no word for them.
+/// OBJ has no word for meetings and shapes of lenses.
 fn without_meetings(cage: &ControlMesh) -> ControlMesh {
-    ControlMesh { meetings: Vec::new(), ..cage.clone() }
+    let scheme = Scheme { lens: LensShape::default(), ..cage.scheme };
+    ControlMesh { meetings: Vec::new(), scheme, ..cage.clone() }
 }
 
 #[test]
@@ -62,7 +64,7 @@ fn obj_and_json_keep_everything() {
     let mut cage = rich_cage();
     for boundary in [Boundary::EdgeAndCorner, Boundary::EdgeOnly, Boundary::None] {
         for creasing in [Creasing::Uniform, Creasing::Chaikin] {
-            cage.scheme = Scheme { boundary, creasing };
+            cage.scheme = Scheme { boundary, creasing, ..cage.scheme };
             assert_eq!(through_json(&cage), cage);
             assert_eq!(through_obj(&cage), without_meetings(&cage));
         }
@@ -74,6 +76,20 @@ fn obj_and_json_keep_everything() {
         assert_eq!(through_json(&cage), cage);
     }
     assert!(through_json(&cage).points[2].y.is_sign_negative(), "even the sign of zero");
+}
+
+#[test]
+fn the_usual_lens_is_not_written() {
+    let written = |cage: &ControlMesh| {
+        let mut file = Vec::new();
+        json::write_cage(cage, &mut file).unwrap();
+        String::from_utf8(file).unwrap()
+    };
+    assert!(!written(&shapes::lens()).contains("lens"));
+    assert!(written(&rich_cage()).contains("\"lens\": {\"beta\":0.3333333333333333,\"gamma\":0.1}"));
+    let mut endless = shapes::cube();
+    endless.scheme.lens.gamma = f64::NAN;
+    assert!(json::write_cage(&endless, Vec::new()).is_err());
 }
 
 #[test]

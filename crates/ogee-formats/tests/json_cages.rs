@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot unwrap has failed")]
 
-use ogee::{Boundary, Creasing, FaceVaryingRule, Meeting, Place, Sharpness, Vec3};
+use ogee::{Boundary, Creasing, FaceVaryingRule, LensShape, Meeting, Place, Sharpness, Vec3};
 use ogee_formats::{CageFile, CageFormat, ReadError, read_cage};
 
 const SHAPE: &str = r#""vertices": [[0,0,0],[1,0,0],[1,1,0],[0,1.5,0]], "faces": [[0,1,2],[0,2,3]]"#;
@@ -27,7 +27,7 @@ fn the_two_mandatory_keys() {
 fn every_key() {
     let file = read(&format!(
         r#"{{"face_varying": "boundaries", "face_uvs": [[0,1,2],[2,1,0]], "uvs": [[0,0],[1,0],[0.5,1]],
-            "holes": [1], "creasing": "chaikin", "boundary": "edge-only", "lens": {{}},
+            "holes": [1], "creasing": "chaikin", "boundary": "edge-only", "lens": {{"gamma":0.1875}},
             "meetings": [{{"vertex":2,"ports":[3,0],"t":0.25}}],
             "corners": [{{"vertex":3,"sharpness":10}}],
             "creases": [{{"vertices":[2,0],"sharpness":2.5}},{{"sharpness":"infinite","vertices":[0,1]}}],
@@ -40,6 +40,7 @@ fn every_key() {
     assert_eq!(file.mesh.meetings, [Meeting { vertex: 2, ports: vec![3, 0], t: 0.25 }]);
     assert_eq!(file.mesh.scheme.boundary, Boundary::EdgeOnly);
     assert_eq!(file.mesh.scheme.creasing, Creasing::Chaikin);
+    assert_eq!(file.mesh.scheme.lens, LensShape { beta: 0.5, gamma: 0.1875 });
     let uv = file.mesh.uv.unwrap();
     assert_eq!((uv.indices, uv.rule), (vec![0, 1, 2, 2, 1, 0], FaceVaryingRule::Boundaries));
     assert_eq!(uv.values, [[0.0, 0.0], [1.0, 0.0], [0.5, 1.0]]);
@@ -62,11 +63,14 @@ fn unknown_keys_are_warned_about() {
 }
 
 #[test]
-fn other_rules_are_refused() {
-    let error = refuse(&format!(r#"{{"lens":{{"beta":0.5}},{SHAPE}}}"#));
-    let codes: Vec<_> = error.faults.iter().map(|fault| fault.code).collect();
-    assert_eq!(codes, ["unsupported_lens"]);
-    assert!(error.to_string().contains("this build does not support"));
+fn a_lens_has_two_numbers_and_no_more() {
+    let lens = |text: &str| format!(r#"{{"lens":{text},{SHAPE}}}"#);
+    assert_eq!(read(&lens("{}")).mesh.scheme.lens, LensShape::default());
+    assert_eq!(read(&lens(r#"{"beta":0.25,"gamma":0.25}"#)).mesh.scheme.lens.beta, 0.25);
+    for wrong in ["[]", r#"{"beta":"half"}"#, r#"{"alpha":0.5}"#, "0.5"] {
+        let error = refuse(&lens(wrong));
+        assert_eq!(error.faults[0].code, "wrong_value", "{wrong}");
+    }
 }
 
 #[test]

@@ -174,6 +174,11 @@ fn forty_two_levels_down_a_vertex_agree() {
     cases.push(("octahedron".into(), cages::octahedron(), 2));
     cases.push(("prism".into(), cages::prism(5), 7));
     cases.push(("valence two".into(), cages::valence_two(), 8));
+    for (name, mesh) in cages::lenses() {
+        cases.push((name, mesh, 0));
+    }
+    cases.push(("stacked lenses".into(), cages::stacked_lenses(), 9));
+    cases.push(("lens of a triangle and a pentagon".into(), cages::lens_of_polygons(), 8));
     for k in [3, 4, 5] {
         cases.push((format!("fan {k}"), cages::fan(k), 0));
     }

@@ -22,8 +22,7 @@ pub(super) struct RawCage {
     pub(super) face_uvs: Option<Vec<Vec<i64>>>,
     pub(super) face_varying: Option<String>,
     pub(super) meetings: Option<Vec<RawMeeting>>,
-    /// True if there is something in `lens`.
-    pub(super) has_lens: Option<Filled>,
+    pub(super) lens: Option<RawLens>,
     pub(super) unknown: Vec<String>,
 }
 
@@ -46,6 +45,14 @@ pub(super) struct RawMeeting {
     pub(super) t: f64,
 }
 
+/// The shape of the rule at vertices of valence 2; what is left out is as usual.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawLens {
+    pub(super) beta: Option<f64>,
+    pub(super) gamma: Option<f64>,
+}
+
 /// A number, or the word `infinite` as infinity.
 pub(super) struct RawSharpness(pub(super) f64);
 
@@ -54,9 +61,6 @@ pub(super) struct Numbers<const N: usize> {
     pub(super) values: [f64; N],
     pub(super) count: usize,
 }
-
-/// Whether a list or an object holds anything.
-pub(super) struct Filled(pub(super) bool);
 
 impl<'de> Deserialize<'de> for RawCage {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<RawCage, D::Error> {
@@ -83,7 +87,7 @@ impl<'de> Deserialize<'de> for RawCage {
                         "face_uvs" => once(&mut cage.face_uvs, &mut map, "face_uvs")?,
                         "face_varying" => once(&mut cage.face_varying, &mut map, "face_varying")?,
                         "meetings" => once(&mut cage.meetings, &mut map, "meetings")?,
-                        "lens" => once(&mut cage.has_lens, &mut map, "lens")?,
+                        "lens" => once(&mut cage.lens, &mut map, "lens")?,
                         _ => {
                             map.next_value::<IgnoredAny>()?;
                             if !OF_NETWORKS.contains(&key.as_str()) {
@@ -167,35 +171,5 @@ impl<'de> Deserialize<'de> for RawSharpness {
             }
         }
         deserializer.deserialize_any(Value)
-    }
-}
-
-impl<'de> Deserialize<'de> for Filled {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Filled, D::Error> {
-        struct Content;
-        impl<'de> Visitor<'de> for Content {
-            type Value = Filled;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a list or an object")
-            }
-
-            fn visit_seq<S: SeqAccess<'de>>(self, mut list: S) -> Result<Filled, S::Error> {
-                let mut filled = false;
-                while list.next_element::<IgnoredAny>()?.is_some() {
-                    filled = true;
-                }
-                Ok(Filled(filled))
-            }
-
-            fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<Filled, M::Error> {
-                let mut filled = false;
-                while map.next_entry::<IgnoredAny, IgnoredAny>()?.is_some() {
-                    filled = true;
-                }
-                Ok(Filled(filled))
-            }
-        }
-        deserializer.deserialize_any(Content)
     }
 }

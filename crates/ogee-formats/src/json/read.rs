@@ -1,10 +1,10 @@
 //! Reading the cage in JSON: raw values through the gate, every fault with its place.
 
-use ogee::{Place, Vec3};
+use ogee::{LensShape, Place, Vec3};
 use serde_json::error::Category;
 
 use super::names::{BOUNDARIES, CREASINGS, FACE_VARYING_RULES, rule};
-use super::parse::{Filled, RawCage};
+use super::parse::RawCage;
 use crate::builder::{CageBuilder, Tag, Texture};
 use crate::cage::CageFile;
 use crate::error::{Fault, ReadError};
@@ -24,7 +24,6 @@ pub fn read(bytes: &[u8]) -> Result<CageFile, ReadError> {
         let key = key.escape_debug().to_string();
         cage.warn(None, "unknown_key", format!("unknown key \"{key}\", passed over"));
     }
-    refuse_other_rules(&mut cage, &raw);
     let missing = [("vertices", raw.vertices.is_none()), ("faces", raw.faces.is_none())];
     for (key, _) in missing.iter().filter(|(_, is_missing)| *is_missing) {
         cage.faults.push(Fault::new("missing_key", format!("the cage has no key \"{key}\"")));
@@ -46,13 +45,6 @@ pub(crate) fn syntax(error: &serde_json::Error) -> Fault {
     let message = format!("column {}: {}", error.column(), whole.strip_suffix(&suffix).unwrap_or(&whole));
     let code = if error.classify() == Category::Data { "wrong_value" } else { "bad_json" };
     Fault::new(code, message).on_line(u32::try_from(error.line()).ok())
-}
-
-fn refuse_other_rules(cage: &mut CageBuilder, raw: &RawCage) {
-    if matches!(raw.has_lens, Some(Filled(true))) {
-        let message = "the cage has a lens shape (\"lens\"), which this build does not support";
-        cage.faults.push(Fault::new("unsupported_lens", message));
-    }
 }
 
 fn vertices_and_faces(cage: &mut CageBuilder, raw: &RawCage) {
@@ -88,6 +80,11 @@ fn tags(cage: &mut CageBuilder, raw: &RawCage) {
     }
     if let Some(creasing) = known(cage, "creasing", &raw.creasing, &CREASINGS) {
         cage.scheme.creasing = creasing;
+    }
+    if let Some(lens) = &raw.lens {
+        let usual = LensShape::default();
+        let (beta, gamma) = (lens.beta.unwrap_or(usual.beta), lens.gamma.unwrap_or(usual.gamma));
+        cage.scheme.lens = LensShape { beta, gamma };
     }
 }
 

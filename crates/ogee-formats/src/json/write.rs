@@ -4,7 +4,7 @@ use std::fmt::{self, Display};
 use std::io::{self, BufWriter, Write};
 
 use ogee::curve_network::CurveNetwork;
-use ogee::{ControlMesh, FaceVaryingRule, Sharpness};
+use ogee::{ControlMesh, FaceVaryingRule, LensShape, Sharpness};
 
 use super::names::{BOUNDARIES, CREASINGS, FACE_VARYING_RULES, name};
 use crate::mesh::MeshView;
@@ -30,6 +30,7 @@ pub(crate) fn write_cage_with(
     let sharpness = sharpness.chain(mesh.corners.iter().map(|corner| corner.sharpness));
     let is_number = |sharpness: Sharpness| !sharpness.value().is_nan();
     let shapes = mesh.meetings.iter().map(|meeting| meeting.t);
+    let shapes = shapes.chain([mesh.scheme.lens.beta, mesh.scheme.lens.gamma]);
     let points = points.chain(network.into_iter().flat_map(super::network::numbers));
     if !points.chain(uvs.copied()).chain(shapes).all(f64::is_finite) || !sharpness.into_iter().all(is_number)
     {
@@ -61,7 +62,13 @@ pub(crate) fn write_cage_with(
     )?;
     let boundary = name(&BOUNDARIES, &mesh.scheme.boundary);
     let creasing = name(&CREASINGS, &mesh.scheme.creasing);
-    write!(out, ",\n\"boundary\": \"{boundary}\",\n\"creasing\": \"{creasing}\",\n\"holes\": ")?;
+    write!(out, ",\n\"boundary\": \"{boundary}\",\n\"creasing\": \"{creasing}\"")?;
+    let LensShape { beta, gamma } = mesh.scheme.lens;
+    if mesh.scheme.lens != LensShape::default() {
+        let (beta, gamma) = (Shortest(beta), Shortest(gamma));
+        write!(out, ",\n\"lens\": {{\"beta\":{beta},\"gamma\":{gamma}}}")?;
+    }
+    write!(out, ",\n\"holes\": ")?;
     write!(out, "{}", Indices(&mesh.holes))?;
     if !mesh.meetings.is_empty() {
         write!(out, ",\n\"meetings\": ")?;

@@ -20,8 +20,9 @@ pub(super) fn at_corner(
     let basis = table.basis(tail);
     let outward = walk.outward(basis);
     let mut flags = flags_at(basis);
-    // Sharp edges in line span no plane, though there is one.
-    let masks = masks.filter(|[a, b]| unit_normal(*a, *b).is_some());
+    // Sharp edges in line span no plane, though there is one. The masks of a lens see all that there is.
+    let masks =
+        masks.filter(|[a, b]| matches!(basis.kind, Kind::Lens { .. }) || unit_normal(*a, *b).is_some());
     let mut tangents = masks.unwrap_or_else(|| {
         let mut net = [[0.0; 4]; 16];
         walk.go(table, points, number, tail, last_step(basis));
@@ -56,7 +57,8 @@ pub(super) fn at_corner(
 fn flags_at(basis: &ChainBasis) -> Flags {
     let flags = Flags::AT_EXTRAORDINARY;
     let (one_sided, unbounded) = match basis.kind {
-        Kind::Smooth { valence } => (valence < 3, valence > 4),
+        Kind::Smooth { valence } => (false, valence > 4),
+        Kind::Lens { .. } => (basis.tangents.is_none(), true),
         Kind::Cone { .. } => (true, true),
         Kind::Meeting { .. } => (false, true),
         Kind::Dart { .. } => (basis.tangents.is_none(), true),

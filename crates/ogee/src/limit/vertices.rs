@@ -4,6 +4,7 @@ use crate::curve_network::rule::Slice;
 use crate::math::{Vec3, par};
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::patch::dart::Dart;
+use crate::patch::lens::Lens;
 use crate::patch::masks::{self, Frame};
 use crate::patch::{Kind, Neighbourhood, with_ring};
 use crate::rules::Level;
@@ -13,8 +14,9 @@ use crate::rules::Level;
 pub struct LimitVertex {
     /// The limit position.
     pub position: Vec3,
-    /// The unit normal; on a crease or at a corner the mean of the sides. `None` where the surface is singular, or at
-    /// an isolated vertex.
+    /// The unit normal; on a crease or at a corner the mean of the sides. `None` where the surface is singular, at a vertex of
+    /// valence 2 without a tangent plane (sharp itself, or of an unusual shape with a crease that ends there), or at an
+    /// isolated vertex.
     pub normal: Option<Vec3>,
 }
 
@@ -132,8 +134,10 @@ fn masks_hold(level: &Level, v: VertexId) -> bool {
         }
         sharp += usize::from(s > 0.0);
     }
-    // A cone: no mask. At one of valence 2 the plane of a dart is not known either.
-    sharp > 1 || level.vertex_sharpness(v) == 0.0 && (sharp == 0 || topology.ring(v).count() > 2)
+    // A cone has no mask, and with some shapes a crease that ends at a lens has no plane.
+    let has_plane =
+        || sharp == 0 || !topology.is_lens(v) || Lens::new(level.scheme().lens, Some(0)).tangents.is_some();
+    sharp > 1 || level.vertex_sharpness(v) == 0.0 && has_plane()
 }
 
 fn by_masks(level: &Level, points: &[Vec3], v: VertexId) -> LimitVertex {
@@ -149,7 +153,9 @@ fn by_masks(level: &Level, points: &[Vec3], v: VertexId) -> LimitVertex {
         let halfedges: Vec<HalfedgeId> = level.sector_halfedges(sector).collect();
         let mut edges: Vec<Vec3> = halfedges.iter().map(|&h| at(topology.target(h))).collect();
         let diagonals: Vec<Vec3> = halfedges.iter().map(|&h| at(topology.target(topology.next(h)))).collect();
-        let frame: Frame = if sector.closed {
+        let frame: Frame = if (sector.closed || is_dart) && topology.is_lens(v) {
+            Lens::new(level.scheme().lens, (!sector.closed).then_some(0)).frame(at(v), &edges, &diagonals)
+        } else if sector.closed {
             masks::smooth(at(v), &edges, &diagonals)
         } else if is_dart {
             Dart::new(edges.len()).frame(at(v), &edges, &diagonals)
@@ -160,8 +166,8 @@ fn by_masks(level: &Level, points: &[Vec3], v: VertexId) -> LimitVertex {
         position = frame.position;
         let side = frame.tangents[0].cross(frame.tangents[1]).normalized().unwrap_or(Vec3::ZERO);
         // The two sharp edges of a reflex corner span the plane the wrong way round.
-        let faces = newell(at(v), &edges);
-        normal += if side.dot(faces) < 0.0 { -side } else { side };
+        let is_reflex = is_corner && side.dot(newell(at(v), &edges)) < 0.0;
+        normal += if is_reflex { -side } else { side };
     }
     LimitVertex { position, normal: normal.normalized() }
 }

@@ -22,11 +22,15 @@ const FEW_STEPS: i32 = 64;
 /// nearly 1/4 across. After so many, rounding of what is along is 1e-6 of what is across, and some 16 later all of it.
 const FEWER_STEPS: i32 = 36;
 
+/// Steps that are taken at a lens: rings shrink alike both ways, by 1/4, and are then as small as at valence 3 in the end.
+const LENS_STEPS: i32 = 240;
+
 /// How many steps are taken in a chain.
 #[inline]
 pub(super) fn last_step(basis: &ChainBasis) -> i32 {
     match basis.kind {
-        Kind::Smooth { valence: 3.. } => MAX_STEPS,
+        Kind::Smooth { .. } => MAX_STEPS,
+        Kind::Lens { crease: None, .. } => LENS_STEPS,
         Kind::Crease { faces: 1, .. } => FEWER_STEPS,
         _ => FEW_STEPS,
     }

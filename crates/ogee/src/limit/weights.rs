@@ -14,7 +14,7 @@ use super::evaluate::Item;
 use super::out::{LANES, Lie, Put};
 use super::place::{in_chain, power_of_two};
 use crate::math::simd::{Four, Plain};
-use crate::patch::{ChainBasis, TURNED, Wide};
+use crate::patch::{ChainBasis, Kind, TURNED, Wide};
 
 /// The most points of a ring that has weights: those of valence 28. With more, sums are no quicker than steps.
 pub(super) const MOST_POINTS: usize = 64;
@@ -25,6 +25,9 @@ const MOST_PLACES: usize = 64;
 /// Steps down a chain to which there are weights. Deeper, a sum loses digits that a walk keeps, whose ring stays relative to
 /// a point near it.
 const STEPS: usize = 4;
+
+/// The same at a lens, whose rings shrink by 1/4 in every step and so lose digits twice as fast.
+const LENS_STEPS: usize = 2;
 
 /// The shortest side of a rectangle, in the parameters of the piece: roundings of its ends are divided by it.
 const SHORTEST: f64 = 1.0 / 8.0;
@@ -122,12 +125,13 @@ impl Weights {
     ) -> Weights {
         let points = basis.ring_count() - 1;
         let pays = !basis.has_quarters() && points < MOST_POINTS && items.len() <= MOST_PLACES;
+        let steps = if let Kind::Lens { .. } = basis.kind { LENS_STEPS } else { STEPS };
         let (mut spots, mut without) = (Vec::new(), Vec::new());
         for &Item { u, v, index } in items {
             let (key, u, v) = in_chain(corner, u, v);
             let (step, tile) = ((key >> 2) as usize, (key & 3) as usize);
             // Step 0 is the vertex itself.
-            if pays && (1..=STEPS).contains(&step) {
+            if pays && (1..=steps).contains(&step) {
                 spots.push(Spot { number: index, step, tile, u, v });
             } else {
                 without.push(index);

@@ -2,7 +2,7 @@
 
 use super::meetings::check_meetings;
 use super::topology::{NONE, pair_halfedges};
-use super::{ControlMesh, FaceId, VertexId};
+use super::{ControlMesh, FaceId, LensShape, VertexId};
 
 /// Why a control mesh was refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -45,6 +45,11 @@ pub enum Defect {
     Meeting { vertex: u32, message: String },
     #[error("a sharpness at vertex {vertex} is not a number")]
     SharpnessNotANumber { vertex: u32 },
+    #[error(
+        "the lens shape beta {beta}, gamma {gamma} gives no tangent plane at vertices of valence 2; choose beta > 0, \
+         gamma >= 0, beta + gamma <= 1, 2 beta + 4 gamma > 1 and 6 beta + 4 gamma < 5, as 1/2 and 1/8"
+    )]
+    LensShape { beta: f64, gamma: f64 },
     #[error("texture coordinates: {message}")]
     FaceVarying { message: String },
     #[error("the mesh has {halfedges} face corners; 2^32 - 2 is the most")]
@@ -80,6 +85,7 @@ impl Defect {
             Defect::MeetingOffVertex { .. } => "meeting_off_vertex",
             Defect::Meeting { .. } => "meeting",
             Defect::SharpnessNotANumber { .. } => "sharpness_not_a_number",
+            Defect::LensShape { .. } => "lens_shape",
             Defect::FaceVarying { .. } => "face_varying",
             Defect::TooManyElements { .. } => "too_many_elements",
         }
@@ -88,7 +94,10 @@ impl Defect {
     /// Where it is; `None` if it concerns the whole mesh.
     pub fn place(&self) -> Option<Place> {
         match *self {
-            Defect::NoFaces | Defect::TooManyElements { .. } | Defect::FaceVarying { .. } => None,
+            Defect::NoFaces
+            | Defect::TooManyElements { .. }
+            | Defect::LensShape { .. }
+            | Defect::FaceVarying { .. } => None,
             Defect::FaceTooSmall { face, .. }
             | Defect::MissingVertex { face, .. }
             | Defect::RepeatedVertex { face, .. } => Some(Place::Face(face.0)),
@@ -235,7 +244,7 @@ fn check_fans(mesh: &ControlMesh, sound: &[bool], defects: &mut Vec<Defect>) {
     }
 }
 
-/// Tags that name what is not there, and sharpness that is no number.
+/// Tags that name what is not there, sharpness that is no number, rules that have no limit worth having.
 fn check_tags(mesh: &ControlMesh, defects: &mut Vec<Defect>) {
     if !mesh.creases.is_empty() {
         let mut edges: Vec<(u32, u32)> = Vec::with_capacity(mesh.faces.corners().len());
@@ -271,6 +280,10 @@ fn check_tags(mesh: &ControlMesh, defects: &mut Vec<Defect>) {
     let count = mesh.faces.len() as u32;
     defects
         .extend(mesh.holes.iter().filter(|&&f| f >= count).map(|&face| Defect::HoleOffFace { face, count }));
+    let LensShape { beta, gamma } = mesh.scheme.lens;
+    if !mesh.scheme.lens.is_smooth() {
+        defects.push(Defect::LensShape { beta, gamma });
+    }
     if let Some(uv) = &mesh.uv {
         if uv.indices.len() != mesh.faces.corners().len() {
             let message =

@@ -62,27 +62,49 @@ pub enum FaceVaryingRule {
 }
 
 /// What a file says about the subdivision scheme.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Scheme {
     /// Rule at the boundary.
     pub boundary: Boundary,
     /// How semi-sharp creases fade.
     pub creasing: Creasing,
+    /// Shape of the rule at interior vertices of valence 2.
+    pub lens: LensShape,
 }
 
-/// Shape of the rule at an inner vertex of valence 2: weight of its neighbours and of the opposite corners
-/// (`docs/methods/lens.md`).
+/// Shape of the rule at an interior vertex of valence 2, where Catmull and Clark's own has no tangent plane: of the new
+/// vertex, the rest is the weight of the old one. The rule is that of Karciauskas and Peters, *Lens-shaped surfaces and C2
+/// subdivision* (`docs/methods/lens.md`, The rule).
+///
+/// [`crate::Level`] takes shapes for which the surface has a tangent plane and weights are not negative, see
+/// [`LensShape::is_smooth`]. Curvature grows without bound at the vertex for all of them; for `gamma` from 3/16 to 1/4 at
+/// the usual `beta` about half as fast as usual.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LensShape {
-    /// Weight of the two neighbours together.
+    /// Weight of the two neighbours together; 1/2 usually.
     pub beta: f64,
-    /// Weight of the two opposite corners together.
+    /// Weight of the two opposite corners together, where both faces are quads; 1/8 usually.
     pub gamma: f64,
 }
 
 impl Default for LensShape {
     fn default() -> LensShape {
         LensShape { beta: 0.5, gamma: 0.125 }
+    }
+}
+
+impl LensShape {
+    /// True if the limit has a tangent plane at the vertex and lies between the points around it: `beta > 0`, `gamma >= 0`,
+    /// `beta + gamma <= 1`, `2 beta + 4 gamma > 1` and `6 beta + 4 gamma < 5`. The last two, and `0 < beta < 1`, say that the
+    /// eigenvalues that depend on the shape, the roots of `16 x^2 + 4 x (4 beta + 4 gamma - 3) + 1 - 2 beta`, are smaller than
+    /// that of the tangents, 1/4. Catmull and Clark's own rule, 3/4 and 1/8, has -1/4 among them.
+    pub fn is_smooth(self) -> bool {
+        let LensShape { beta, gamma } = self;
+        beta > 0.0
+            && gamma >= 0.0
+            && beta + gamma <= 1.0
+            && 2.0 * beta + 4.0 * gamma > 1.0
+            && 6.0 * beta + 4.0 * gamma < 5.0
     }
 }
 

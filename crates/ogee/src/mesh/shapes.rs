@@ -142,6 +142,41 @@ pub fn body() -> ControlMesh {
     ControlMesh::new(points, faces)
 }
 
+/// A wing from tip to tip, 12 long, 4 deep and about 0.6 thick: 56 quads in bands of eight around it, closed at each tip by
+/// zipping its two sides together. So the ends of both seams are lenses, vertices of valence 2, and all other vertices have
+/// valence 4. Vertices 0 and 4 are the lenses of the tip at `z = -6`, the last and the fifth from last those of the other.
+pub fn lens() -> ControlMesh {
+    const BANDS: u32 = 7;
+    const SEAM: u32 = 4;
+    const AROUND: u32 = 2 * SEAM;
+    let last = SEAM + 1 + (BANDS - 1) * AROUND;
+    let id = |band: u32, k: u32| {
+        // A seam goes there and back again.
+        let on_seam = |k: u32| k.min(AROUND - k);
+        match (band, k % AROUND) {
+            (0, k) => on_seam(k),
+            (BANDS, k) => last + on_seam(k),
+            (band, k) => SEAM + 1 + (band - 1) * AROUND + k,
+        }
+    };
+    let mut points = vec![Vec3::ZERO; (last + SEAM + 1) as usize];
+    let mut faces = FaceList::new();
+    for (band, k) in (0..=BANDS).flat_map(|band| (0..AROUND).map(move |k| (band, k))) {
+        let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / f64::from(AROUND)).sin_cos();
+        let along = 2.0 * f64::from(band) / f64::from(BANDS) - 1.0;
+        let depth = 2.0 - 1.2 * along * along;
+        let is_seam = band == 0 || band == BANDS;
+        let thickness = if is_seam { 0.0 } else { 0.2 * depth };
+        // Tips are swept back.
+        let x = depth * cos - 0.8 * along * along;
+        points[id(band, k) as usize] = Vec3::new(x, thickness * sin, 6.0 * along);
+        if band < BANDS {
+            faces.push(&[id(band, k), id(band, k + 1), id(band + 1, k + 1), id(band + 1, k)]);
+        }
+    }
+    ControlMesh::new(points, faces)
+}
+
 /// An open disk of `rings` rings of quads around one vertex of valence `n`, slightly domed. Vertex 0 is the
 /// middle.
 pub fn disk(n: u32, rings: u32) -> ControlMesh {

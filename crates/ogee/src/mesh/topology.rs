@@ -23,6 +23,8 @@ pub struct Topology {
     pub(crate) first_side: Vec<u32>,
     /// For each vertex a halfedge that leaves it: on a boundary the one without twin; `NONE` if isolated.
     pub(crate) outgoing: Vec<u32>,
+    /// The interior vertices of two faces, in order. A step of refinement brings no new ones.
+    pub(crate) lenses: Vec<u32>,
     pub(crate) layout: Layout,
 }
 
@@ -119,6 +121,7 @@ impl Topology {
             edge: Vec::new(),
             first_side: Vec::new(),
             outgoing: vec![NONE; vertices],
+            lenses: Vec::new(),
             layout: self.layout.clone(),
         };
         topology.number_edges();
@@ -141,6 +144,7 @@ impl Topology {
             edge: Vec::new(),
             first_side: Vec::new(),
             outgoing: vec![NONE; vertices],
+            lenses: Vec::new(),
             layout,
         };
         topology.number_edges();
@@ -163,7 +167,7 @@ impl Topology {
         self.first_side = first_side;
     }
 
-    /// Fills `outgoing`; false if the faces of some vertex form more than one fan.
+    /// Fills `outgoing` and `lenses`; false if the faces of some vertex form more than one fan.
     fn choose_outgoing(&mut self) -> bool {
         let mut degree = vec![0u32; self.outgoing.len()];
         for (h, &v) in self.origin.iter().enumerate() {
@@ -173,6 +177,8 @@ impl Topology {
                 self.outgoing[v] = h as u32;
             }
         }
+        let is_lens = |&v: &u32| degree[v as usize] == 2 && !self.is_boundary(VertexId(v));
+        self.lenses = (0..self.outgoing.len() as u32).filter(is_lens).collect();
         (0..self.outgoing.len())
             .all(|v| self.outgoing[v] == NONE || self.ring(VertexId(v as u32)).count() == degree[v] as usize)
     }
@@ -307,6 +313,16 @@ impl Topology {
     #[inline]
     pub fn is_boundary(&self, v: VertexId) -> bool {
         self.outgoing(v).is_some_and(|h| self.twin(h).is_none())
+    }
+
+    /// The interior vertices of valence 2, in order.
+    pub fn lenses(&self) -> impl ExactSizeIterator<Item = VertexId> + '_ {
+        self.lenses.iter().map(|&v| VertexId(v))
+    }
+
+    /// True if the vertex is an interior one of valence 2.
+    pub fn is_lens(&self, v: VertexId) -> bool {
+        self.lenses.binary_search(&v.0).is_ok()
     }
 
     /// How many faces meet at the vertex.

@@ -273,13 +273,14 @@ impl Builder {
     }
 }
 
-/// For each vertex whether a tag touches it; empty if there are no tags.
+/// For each vertex whether it has a rule of its own: a tag touches it, or it is a lens. Empty if there are none.
 pub(super) fn tagged_vertices(level: &Level) -> Vec<bool> {
-    if !level.has_tags() {
+    let (_, rules) = level.tagged_rules();
+    if rules.is_empty() {
         return Vec::new();
     }
     let mut tagged = vec![false; level.topology().vertex_count()];
-    for (v, _) in level.tagged_rules().1.iter() {
+    for (v, _) in rules.iter() {
         tagged[v as usize] = true;
     }
     for (f, _) in level.slices() {

@@ -19,12 +19,15 @@
 use std::f64::consts::{PI, TAU};
 
 use super::dart::Dart;
+use super::lens::Lens;
 use super::surroundings::{Mirrored, Surroundings};
 use super::{masks, smooth};
 use crate::curve_network::rule::Slice;
 use crate::math::Vec3;
 use crate::math::simd::{self, Four};
-use crate::mesh::{Boundary, Creasing, EdgeId, FaceId, FaceList, HalfedgeId, Scheme, Topology, VertexId};
+use crate::mesh::{
+    Boundary, Creasing, EdgeId, FaceId, FaceList, HalfedgeId, LensShape, Scheme, Topology, VertexId,
+};
 use crate::rules::masks as rules;
 use crate::rules::{Level, SharpEdge, Sparse};
 use crate::stencil::{Row, join};
@@ -32,14 +35,17 @@ use crate::stencil::{Row, join};
 /// What repeats itself around an irregular corner, seen from one of its quads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Kind {
-    /// A smooth interior vertex.
+    /// A smooth interior vertex of three faces and more.
     Smooth { valence: u32 },
+    /// An interior vertex of valence 2, and the bits of the shape of its rule; `crease` is the edge of a crease that ends
+    /// there, counted from the quad's own first.
+    Lens { crease: Option<u32>, beta: u64, gamma: u64 },
     /// An interior vertex that stays, no sharp edge at it.
     Cone { valence: u32 },
     /// A vertex where curves meet at so many ports, the first of them along the quad's own first edge or the second; the bits
     /// of the parameter.
     Meeting { ports: u32, port_first: bool, t: u64 },
-    /// An interior vertex where one crease ends; `crease` is its edge, counted from the quad's own first.
+    /// An interior vertex of three faces and more where one crease ends; `crease` is its edge, counted from the quad's own first.
     Dart { valence: u32, crease: u32 },
     /// A sector beside a crease or boundary.
     Crease { faces: u32, position: u32 },
@@ -48,6 +54,34 @@ pub(crate) enum Kind {
 }
 
 impl Kind {
+    /// An interior vertex of valence 2.
+    pub(crate) fn lens(LensShape { beta, gamma }: LensShape, crease: Option<u32>) -> Kind {
+        Kind::Lens { crease, beta: beta.to_bits(), gamma: gamma.to_bits() }
+    }
+
+    /// The shape of a lens; the usual one elsewhere, where it has no say.
+    fn lens_shape(self) -> LensShape {
+        match self {
+            Kind::Lens { beta, gamma, .. } => {
+                LensShape { beta: f64::from_bits(beta), gamma: f64::from_bits(gamma) }
+            }
+            _ => LensShape::default(),
+        }
+    }
+
+    /// The edge of the crease that ends at the corner, counted from the quad's own first.
+    fn ending_crease(self) -> Option<u32> {
+        match self {
+            Kind::Dart { crease, .. } => Some(crease),
+            Kind::Lens { crease, .. } => crease,
+            Kind::Smooth { .. }
+            | Kind::Cone { .. }
+            | Kind::Meeting { .. }
+            | Kind::Crease { .. }
+            | Kind::Corner { .. } => None,
+        }
+    }
+
     /// Faces all the way round.
     pub(crate) fn is_closed(self) -> bool {
         !matches!(self, Kind::Crease { .. } | Kind::Corner { .. })
@@ -57,6 +91,7 @@ impl Kind {
     pub(crate) fn faces(self) -> u32 {
         match self {
             Kind::Smooth { valence } | Kind::Cone { valence } | Kind::Dart { valence, .. } => valence,
+            Kind::Lens { .. } => 2,
             Kind::Meeting { ports, .. } => 2 * ports,
             Kind::Crease { faces, .. } | Kind::Corner { faces, .. } => faces,
         }
@@ -64,7 +99,11 @@ impl Kind {
 
     fn position(self) -> u32 {
         match self {
-            Kind::Smooth { .. } | Kind::Cone { .. } | Kind::Meeting { .. } | Kind::Dart { .. } => 0,
+            Kind::Smooth { .. }
+            | Kind::Lens { .. }
+            | Kind::Cone { .. }
+            | Kind::Meeting { .. }
+            | Kind::Dart { .. } => 0,
             Kind::Crease { position, .. } | Kind::Corner { position, .. } => position,
         }
     }
@@ -73,6 +112,7 @@ impl Kind {
     pub(crate) fn continues_below(self) -> bool {
         match self {
             Kind::Smooth { .. } | Kind::Cone { .. } | Kind::Meeting { .. } => true,
+            Kind::Lens { crease, .. } => crease != Some(0),
             Kind::Dart { crease, .. } => crease != 0,
             Kind::Crease { position, .. } | Kind::Corner { position, .. } => position > 0,
         }
@@ -82,7 +122,8 @@ impl Kind {
     pub(crate) fn continues_left(self) -> bool {
         match self {
             Kind::Smooth { .. } | Kind::Cone { .. } | Kind::Meeting { .. } => true,
-            Kind::Dart { valence, crease } => crease != 1 % valence,
+            Kind::Lens { crease, .. } => crease != Some(1),
+            Kind::Dart { crease, .. } => crease != 1,
             Kind::Crease { faces, position } | Kind::Corner { faces, position } => position + 1 < faces,
         }
     }
@@ -192,8 +233,8 @@ pub(crate) struct ChainBasis {
     pub(crate) tiles: Vec<[u32; 16]>,
     /// Weights of the limit position over the inner points.
     pub(crate) position: Vec<f64>,
-    /// Weights of two vectors that span the tangent plane, along the quad's own edges where the vertex is smooth;
-    /// `None` where there is none.
+    /// Weights of two vectors that span the tangent plane, along the quad's own edges where the vertex is smooth, along the
+    /// first and towards the corner across at a lens; `None` where there is none.
     pub(crate) tangents: Option<[Vec<f64>; 2]>,
     /// By how much a step shrinks the ring in the end.
     pub(crate) eigenvalue: f64,
@@ -348,6 +389,7 @@ impl ChainBasis {
                 weights[count - 1] += 1.0 / 6.0;
                 weights
             }
+            Kind::Lens { crease, .. } => Lens::new(self.kind.lens_shape(), crease).position.to_vec(),
             Kind::Dart { valence, crease } => Dart::new(valence as usize).seen_from(crease as usize).0,
         }
     }
@@ -356,6 +398,7 @@ impl ChainBasis {
     fn subdominant(&self) -> f64 {
         match self.kind {
             Kind::Smooth { valence } => masks::subdominant(TAU / f64::from(valence)),
+            Kind::Lens { crease, .. } => Lens::new(self.kind.lens_shape(), crease).eigenvalue,
             Kind::Dart { valence, .. } => {
                 let [along, across] = Dart::new(valence as usize).eigenvalues;
                 along.max(across)
@@ -381,7 +424,7 @@ fn unit(count: usize, at: usize) -> Vec<f64> {
 /// there is no tangent plane.
 fn tangent_weights(kind: Kind) -> Option<[Vec<f64>; 2]> {
     match kind {
-        Kind::Smooth { valence } if valence > 2 => {
+        Kind::Smooth { valence } => {
             // Towards the quad's own edges.
             let (sin, cos) = (TAU / f64::from(valence)).sin_cos();
             let mut tangents = [vec![0.0], vec![0.0]];
@@ -393,6 +436,9 @@ fn tangent_weights(kind: Kind) -> Option<[Vec<f64>; 2]> {
         }
         Kind::Crease { faces: 1..=3, .. } | Kind::Corner { faces: 2, .. } => {
             Some([0, 1].map(|which| few_weights(kind, which)))
+        }
+        Kind::Lens { crease, .. } => {
+            Lens::new(kind.lens_shape(), crease).tangents.map(|tangents| tangents.map(|mask| mask.to_vec()))
         }
         Kind::Dart { valence, crease } => Dart::new(valence as usize).seen_from(crease as usize).1,
         Kind::Meeting { ports, port_first, t } => {
@@ -555,8 +601,8 @@ impl Model {
         let outer = [number(true), number(true), number(true), number(true), number(true)];
         let left = number(kind.continues_left());
         // Beside a dart's crease the surface goes on, though the quad's own net does not need it.
-        let open_below = matches!(kind, Kind::Dart { .. }) && below == u32::MAX;
-        let open_left = matches!(kind, Kind::Dart { .. }) && left == u32::MAX;
+        let open_below = kind.ending_crease().is_some() && below == u32::MAX;
+        let open_left = kind.ending_crease().is_some() && left == u32::MAX;
         let below = if open_below { number(true) } else { below };
         let left = if open_left { number(true) } else { left };
         let [right, right_above, corner, above_right, above] = outer;
@@ -573,7 +619,7 @@ impl Model {
         }
         let topology = Topology::of_part(&list, next as usize);
         let mut creases = Vec::new();
-        if let Kind::Dart { crease, .. } = kind {
+        if let Some(crease) = kind.ending_crease() {
             creases.push(HalfedgeId(4 * crease));
             if open_below {
                 creases.push(HalfedgeId(4 * along_first));
@@ -589,7 +635,8 @@ impl Model {
         let stays = matches!(kind, Kind::Cone { .. } | Kind::Corner { .. });
         let corners = if stays { vec![(0, f64::INFINITY)] } else { Vec::new() };
         // The rim of the model is no boundary; on real ones a vertex stays where its kind says so.
-        let scheme = Scheme { boundary: Boundary::EdgeOnly, creasing: Creasing::Uniform };
+        let scheme =
+            Scheme { boundary: Boundary::EdgeOnly, creasing: Creasing::Uniform, lens: kind.lens_shape() };
         let mut slices = Vec::new();
         if let Kind::Meeting { port_first, t, .. } = kind {
             slices.extend((0..faces).map(|i| {
@@ -637,6 +684,10 @@ mod tests {
         kinds.extend([1, 3, 4, 6].map(|faces| Kind::Crease { faces, position: faces / 2 }));
         kinds.extend([2, 3, 5].map(|faces| Kind::Corner { faces, position: 0 }));
         kinds.extend([4, 7].map(|valence| Kind::Dart { valence, crease: 1 }));
+        let shapes = [[0.5, 0.125], [0.5, 0.2], [0.3, 0.2]].map(|[beta, gamma]| LensShape { beta, gamma });
+        kinds.extend(
+            shapes.iter().flat_map(|&shape| [None, Some(0), Some(1)].map(|crease| Kind::lens(shape, crease))),
+        );
         for kind in kinds {
             let basis = ChainBasis::new(kind);
             let count = kind.inner_count();

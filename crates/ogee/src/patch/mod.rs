@@ -3,6 +3,7 @@
 mod build;
 mod chain;
 pub(crate) mod dart;
+pub(crate) mod lens;
 mod location;
 pub(crate) mod masks;
 mod neighbourhood;

@@ -1,4 +1,4 @@
-//! What stands around a quad in the common case: no tags, no boundary, no other polygons.
+//! What stands around a quad in the common case: no tags, no lens, no boundary, no other polygons.
 //!
 //! A second statement of [`super::surroundings`], several times as fast, and for levels that are not made
 //! ([`crate::refine::Ahead`]); the test `the_quick_way_is_the_general_way` holds it to the first.
@@ -30,7 +30,8 @@ pub(super) struct PlainTail {
 }
 
 impl Plain {
-    /// What the quad is of which `h` leaves the corner at `(0, 0)`. The caller knows that no tag touches it.
+    /// What the quad is of which `h` leaves the corner at `(0, 0)`. The caller knows that no tag touches it, and that none of
+    /// its corners is a lens.
     #[inline]
     pub(super) fn of(mesh: &impl Connectivity, h: HalfedgeId) -> Plain {
         let mut net = [0; 16];
@@ -51,8 +52,8 @@ impl Plain {
             net[slots[1 + DIAGONAL]] = mesh.origin(mesh.prev(opposite)).0;
             let left = mesh.prev(beside);
             net[slots[1 + LEFT]] = mesh.origin(left).0;
-            // Four quads close the ring here; two do so as well, on the second time round.
-            if mesh.twin(left) != Some(mesh.next(opposite)) || mesh.face(opposite) == mesh.face(halfedge) {
+            // Four quads close the ring here; two would as well, but a lens has a rule of its own.
+            if mesh.twin(left) != Some(mesh.next(opposite)) {
                 if irregular.is_some() {
                     return Plain::Other;
                 }

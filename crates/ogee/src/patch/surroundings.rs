@@ -65,9 +65,11 @@ impl<'a> Surroundings<'a> {
         let faces = halfedges.len() as u32;
         let position = halfedges.iter().position(|&other| other == h).unwrap_or(0) as u32;
         let kind = match (sharp, is_corner) {
+            (0, false) if faces == 2 => Kind::lens(level.scheme().lens, None),
             (0, false) => Kind::Smooth { valence: faces },
             (0, true) => Kind::Cone { valence: faces },
             // The crease that ends here, counted from this quad's own edge.
+            (1, false) if faces == 2 => Kind::lens(level.scheme().lens, Some((faces - position) % faces)),
             (1, false) => Kind::Dart { valence: faces, crease: (faces - position) % faces },
             (_, false) => Kind::Crease { faces, position },
             (_, true) => Kind::Corner { faces, position },

@@ -110,7 +110,7 @@ pub struct PointWithoutPlane {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cause {
     /// The rules of subdivision give none: four or more faces at a crease or border, three or more at a corner, sharp
-    /// vertices, interior vertices of valence 2.
+    /// vertices.
     Rules,
     /// A corner of two faces: normals reach its plane only as one over the number of steps.
     Slow,

@@ -104,13 +104,13 @@ impl Topology {
     /// The topology one step on. The caller has made sure that `4H` fits.
     pub(crate) fn split(&self) -> Topology {
         match self.as_quads() {
-            Some(quads) => split(&quads),
-            None => split(self),
+            Some(quads) => split(&quads, self.lenses.clone()),
+            None => split(self, self.lenses.clone()),
         }
     }
 }
 
-fn split(parent: &impl Connectivity) -> Topology {
+fn split(parent: &impl Connectivity, lenses: Vec<u32>) -> Topology {
     let (vertices, edges) = (parent.vertex_count(), parent.edge_count());
     let (faces, halfedges) = (parent.face_count(), parent.halfedge_count());
     let half = |h: usize| HalfedgeId(h as u32);
@@ -122,6 +122,7 @@ fn split(parent: &impl Connectivity) -> Topology {
             .into_flattened(),
         first_side: par::collect(2 * edges + halfedges, |e| child_side(parent, e as u32)),
         outgoing: par::collect(vertices + faces + edges, |v| child_outgoing(parent, v as u32)),
+        lenses,
         layout: Layout::Quads,
     }
 }

@@ -25,12 +25,13 @@ fn edge_rule(level: &Level, h: HalfedgeId, sharpness: f64) -> EdgeRule {
     if stays { EdgeRule::Crease } else { EdgeRule::Blend { weight: sharpness } }
 }
 
-/// Rules of all vertices that a tag touches.
+/// Rules of all vertices that a tag touches, and of lenses.
 pub(super) fn classify_vertices(level: &Level) -> Sparse<VertexRule> {
     let mut touched: Vec<u32> = level.vertex_sharpness.iter().map(|(v, _)| v).collect();
     for (_, edge) in level.sharp_edges.iter() {
         touched.extend([level.topology.origin(edge.halfedge).0, level.topology.target(edge.halfedge).0]);
     }
+    touched.extend(level.topology.lenses().map(|v| v.0));
     touched.sort_unstable();
     touched.dedup();
     Sparse::new(touched.into_iter().map(|v| (v, vertex_rule(level, VertexId(v)))).collect())
@@ -57,8 +58,9 @@ fn vertex_rule(level: &Level, v: VertexId) -> VertexRule {
             visit(before, topology.origin(before));
         }
     }
-    let parent = mask(own, sharp.iter().map(|&(end, ..)| end));
-    let child = mask(fade(own), sharp.iter().filter(|edge| edge.2 > 0.0).map(|&(end, ..)| end));
+    let smooth = if topology.is_lens(v) { VertexMask::Lens } else { VertexMask::Smooth };
+    let parent = mask(smooth, own, sharp.iter().map(|&(end, ..)| end));
+    let child = mask(smooth, fade(own), sharp.iter().filter(|edge| edge.2 > 0.0).map(|&(end, ..)| end));
     if parent == child {
         return VertexRule::Of(parent);
     }
@@ -67,13 +69,14 @@ fn vertex_rule(level: &Level, v: VertexId) -> VertexRule {
     VertexRule::Blend { parent, child, weight: blend_weight(vertex.into_iter().chain(edges)) }
 }
 
-fn mask(own_sharpness: f64, sharp_ends: impl Iterator<Item = VertexId>) -> VertexMask {
+/// `smooth` is what it is with no sharp edge or one.
+fn mask(smooth: VertexMask, own_sharpness: f64, sharp_ends: impl Iterator<Item = VertexId>) -> VertexMask {
     if own_sharpness > 0.0 {
         return VertexMask::Corner;
     }
     let ends: Vec<VertexId> = sharp_ends.take(3).collect();
     match ends[..] {
-        [] | [_] => VertexMask::Smooth,
+        [] | [_] => smooth,
         [a, b] => VertexMask::Crease { ends: [a, b] },
         _ => VertexMask::Corner,
     }

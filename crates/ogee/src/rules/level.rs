@@ -4,8 +4,8 @@ use super::classify::{classify_edges, classify_vertices, hidden_faces};
 use super::{EdgeRule, Sparse, VertexMask, VertexRule};
 use crate::curve_network::rule::Slice;
 use crate::mesh::{
-    Boundary, ControlMesh, Creasing, FaceId, HalfedgeId, Meeting, Scheme, Topology, TopologyError, VertexId,
-    check,
+    Boundary, ControlMesh, Creasing, FaceId, HalfedgeId, LensShape, Meeting, Scheme, Topology, TopologyError,
+    VertexId, check,
 };
 
 /// An edge with sharpness above zero, by one of its halfedges.
@@ -31,7 +31,7 @@ pub struct Level {
     slices: Sparse<Slice>,
     /// Rules other than smooth, or crease on the boundary.
     edge_rules: Sparse<EdgeRule>,
-    /// Rules other than smooth inside, and those of the scheme on the boundary.
+    /// Rules other than smooth inside, and those of the scheme on the boundary; lenses are always among them.
     vertex_rules: Sparse<VertexRule>,
     /// Faces that are no part of the surface, in order.
     hidden: Vec<FaceId>,
@@ -48,7 +48,7 @@ impl Level {
             && mesh.corners.is_empty()
             && mesh.holes.is_empty()
             && mesh.meetings.is_empty());
-        if tagged || mesh.uv.is_some() {
+        if tagged || mesh.uv.is_some() || mesh.scheme.lens != LensShape::default() {
             let defects = check(mesh);
             if !defects.is_empty() {
                 return Err(TopologyError { defects });
@@ -177,8 +177,8 @@ impl Level {
         self.vertex_rules.get(v.0).unwrap_or_else(|| VertexRule::Of(self.untagged_mask(v)))
     }
 
-    /// The mask of a vertex that no tag touches.
-    pub(crate) fn untagged_mask(&self, v: VertexId) -> VertexMask {
+    /// The mask of a vertex that has no rule of its own: no tag touches it, and it is no lens.
+    fn untagged_mask(&self, v: VertexId) -> VertexMask {
         match self.topology.outgoing(v) {
             None => VertexMask::Corner,
             Some(h) if self.topology.twin(h).is_some() => VertexMask::Smooth,
@@ -193,7 +193,7 @@ impl Level {
         }
     }
 
-    /// Rules that differ from those of an untagged mesh, for the fast path of refinement.
+    /// Rules of edges and vertices that tags touch, and of lenses, for the fast path of refinement.
     pub(crate) fn tagged_rules(&self) -> (&Sparse<EdgeRule>, &Sparse<VertexRule>) {
         (&self.edge_rules, &self.vertex_rules)
     }

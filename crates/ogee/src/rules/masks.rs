@@ -6,6 +6,7 @@ use super::{EdgeRule, Level, VertexMask, VertexRule};
 use crate::catmull_clark;
 use crate::crease;
 use crate::curve_network;
+use crate::lens;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::stencil::Row;
 
@@ -29,6 +30,7 @@ pub(crate) fn vertex_terms(level: &Level, v: VertexId, row: &mut Row) {
 fn one(level: &Level, v: VertexId, mask: VertexMask, weight: f64, row: &mut Row) {
     match mask {
         VertexMask::Smooth => catmull_clark::rule::smooth_vertex(level.topology(), v, weight, row),
+        VertexMask::Lens => lens::rule::centre(level.topology(), v, level.scheme().lens, weight, row),
         VertexMask::Crease { ends } => crease::rule::crease_vertex(v, ends, weight, row),
         VertexMask::Corner => row.add(v, weight),
     }

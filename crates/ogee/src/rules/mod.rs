@@ -20,6 +20,8 @@ use crate::mesh::VertexId;
 pub enum VertexMask {
     /// Catmull and Clark's; also at a dart, where one crease ends.
     Smooth,
+    /// That of an interior vertex of valence 2, of the shape that the scheme has; also where one crease ends there.
+    Lens,
     /// On a crease or boundary that runs through these neighbours.
     Crease {
         /// The neighbours along the crease.

@@ -3,8 +3,8 @@
 #![allow(dead_code, unreachable_pub, reason = "each claim uses a part of it")]
 
 use ogee::{
-    Boundary, ControlMesh, Corner, Crease, Creasing, FaceId, FaceList, Level, Location, Meeting, PatchTable,
-    Scheme, Sharpness, SurfaceJet, Vec3, VertexId, shapes,
+    Boundary, ControlMesh, Corner, Crease, Creasing, FaceId, FaceList, LensShape, Level, Location, Meeting,
+    PatchTable, Scheme, Sharpness, SurfaceJet, Vec3, VertexId, shapes,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -234,6 +234,159 @@ pub fn valence_two() -> ControlMesh {
     mesh
 }
 
+/// A cube whose top is cut in three by two bent lines: two lenses on the diagonal of one face.
+pub fn stacked_lenses() -> ControlMesh {
+    let mut mesh = valence_two();
+    let mut faces = FaceList::new();
+    for face in mesh.faces.iter() {
+        if face.contains(&8) && face[1] == 8 {
+            faces.push(&[face[0], 8, face[2], 9]);
+            faces.push(&[face[0], 9, face[2], face[3]]);
+        } else {
+            faces.push(face);
+        }
+    }
+    mesh.faces = faces;
+    mesh.points.push(Vec3::new(-0.2, 0.1, 1.4));
+    mesh
+}
+
+/// A cube whose top is cut in three by a straight line and a bent one: a lens of a triangle and a quad, or of a pentagon.
+pub fn lens_of_polygons() -> ControlMesh {
+    let mut mesh = cube();
+    let mut faces = FaceList::new();
+    for (f, face) in mesh.faces.iter().enumerate() {
+        if f == 1 {
+            faces.push(&[face[0], face[1], face[2]]);
+            faces.push(&[face[0], face[2], 8]);
+            faces.push(&[face[0], 8, face[2], 9, face[3]]);
+        } else if face.contains(&mesh.faces.face(1)[2]) && face.contains(&mesh.faces.face(1)[3]) {
+            let at = face.iter().position(|&v| v == mesh.faces.face(1)[3]).unwrap();
+            let mut corners = face.to_vec();
+            corners.rotate_left(at);
+            corners.insert(1, 9);
+            faces.push(&corners);
+        } else {
+            faces.push(face);
+        }
+    }
+    mesh.faces = faces;
+    mesh.points.extend([Vec3::new(0.1, 0.05, 1.3), Vec3::new(0.1, 1.2, 0.9)]);
+    mesh
+}
+
+/// The number of a point of a lens net at `(i, j)` of the w-plane, where it is the same as `(-i, -j)`.
+pub fn in_lens_net(mut i: i32, mut j: i32) -> u32 {
+    if j < 0 || j == 0 && i < 0 {
+        (i, j) = (-i, -j);
+    }
+    let k = i.abs().max(j.abs());
+    let along = |i: i32, j: i32| if i == k { j } else { 2 * k - i };
+    let t = match (i > 0, k) {
+        (_, 0) => return 0,
+        (true, _) => along(i, j),
+        (false, _) => 2 * k + along(j, -i),
+    };
+    (1 + 2 * k * (k - 1) + t) as u32
+}
+
+/// A lens, vertex 0, in so many layers of quads, slightly domed: its points are squares of complex numbers. Faces 0 and 1
+/// are the two at the lens.
+pub fn lens_net(layers: i32) -> ControlMesh {
+    let mut points = vec![Vec3::ZERO; (1 + 2 * layers * (layers + 1)) as usize];
+    let (mut faces, mut outer) = (FaceList::new(), Vec::new());
+    for j in -layers..=layers {
+        for i in -layers..=layers {
+            let [x, y] = [f64::from(i * i - j * j), f64::from(2 * i * j)];
+            let number = in_lens_net(i, j) as usize;
+            points[number] = Vec3::new(x, y, -0.02 * (x * x + y * y) / f64::from(layers)) / 4.0;
+        }
+    }
+    let mut quadrant = |turn: &dyn Fn(i32, i32) -> u32| {
+        for (i, j) in (0..layers).flat_map(|j| (0..layers).map(move |i| (i, j))) {
+            let corners = [turn(i, j), turn(i + 1, j), turn(i + 1, j + 1), turn(i, j + 1)];
+            if i == 0 && j == 0 { faces.push(&corners) } else { outer.push(corners) }
+        }
+    };
+    quadrant(&|i, j| in_lens_net(i, j));
+    quadrant(&|i, j| in_lens_net(-j, i));
+    outer.iter().for_each(|corners| faces.push(corners));
+    ControlMesh::new(points, faces)
+}
+
+/// Two lenses, vertices 0 and `length`, joined by a straight path of so many edges, within circles of quads.
+pub fn paired_lenses(length: u32, circles: u32) -> ControlMesh {
+    let around = 2 * length;
+    let id = move |x: u32, y: u32| match (x % around, y) {
+        (x, 0) => x.min(around - x),
+        (x, y) => length + 1 + (y - 1) * around + x,
+    };
+    let mut points = vec![Vec3::ZERO; (length + 1 + circles * around) as usize];
+    let mut faces = FaceList::new();
+    let step = std::f64::consts::TAU / f64::from(around);
+    for (x, y) in (0..=circles).flat_map(|y| (0..around).map(move |x| (x, y))) {
+        let (s, t) = (step * f64::from(x), step * f64::from(y));
+        let p = [t.cosh() * s.cos(), t.sinh() * s.sin()];
+        points[id(x, y) as usize] = Vec3::new(p[0], p[1], -0.1 * (p[0] * p[0] + p[1] * p[1]));
+        if y < circles {
+            faces.push(&[id(x, y), id(x + 1, y), id(x + 1, y + 1), id(x, y + 1)]);
+        }
+    }
+    ControlMesh::new(points, faces)
+}
+
+/// Another shape of the rule at vertices of valence 2.
+pub fn with_lens(mut mesh: ControlMesh, beta: f64, gamma: f64) -> ControlMesh {
+    mesh.scheme.lens = LensShape { beta, gamma };
+    mesh
+}
+
+/// The edges of a lens net from the lens along its first neighbour, then along its second, `length` edges each.
+pub fn lens_spokes(which: &[u32], length: i32) -> Vec<[u32; 2]> {
+    let at = |spoke: u32, i: i32| if spoke == 0 { in_lens_net(i, 0) } else { in_lens_net(0, i) };
+    which.iter().flat_map(|&spoke| (0..length).map(move |i| [at(spoke, i), at(spoke, i + 1)])).collect()
+}
+
+/// Lenses in every kind of neighbourhood.
+pub fn lenses() -> Vec<(String, ControlMesh)> {
+    let net = |layers| shaken(lens_net(layers), 0.1);
+    let mut cages = vec![
+        ("lens".to_owned(), net(3)),
+        ("lens at a boundary".to_owned(), net(1)),
+        ("lens at a boundary, edges".to_owned(), with_boundary(net(1), Boundary::EdgeOnly)),
+        ("lens one face from a boundary".to_owned(), with_boundary(net(2), Boundary::None)),
+        ("stacked lenses".to_owned(), stacked_lenses()),
+        ("lens of a triangle and a pentagon".to_owned(), lens_of_polygons()),
+        ("built-in lenses".to_owned(), shaken(shapes::lens(), 0.1)),
+        ("lens, another shape".to_owned(), with_lens(net(2), 0.3, 0.2)),
+        ("lens, bounded".to_owned(), with_lens(net(2), 0.5, 0.25)),
+        ("hole beside a lens".to_owned(), with_holes(net(2), &[1])),
+        ("sharp lens".to_owned(), sharp_at(net(2), &[0], 10.0)),
+        ("semi-sharp lens".to_owned(), sharp_at(net(2), &[0], 1.6)),
+        ("crease into a lens".to_owned(), creased(net(2), &lens_spokes(&[0], 2), 10.0)),
+        (
+            "crease into another lens".to_owned(),
+            creased(with_lens(net(2), 0.3, 0.2), &lens_spokes(&[1], 2), 10.0),
+        ),
+        ("crease into a lens without a plane".to_owned(), {
+            creased(with_lens(net(2), 0.8, 0.04), &lens_spokes(&[0], 2), 10.0)
+        }),
+        ("crease through a lens".to_owned(), creased(net(2), &lens_spokes(&[0, 1], 2), 10.0)),
+    ];
+    for length in [2, 3, 4] {
+        cages.push((format!("paired lenses {length}"), shaken(paired_lenses(length, 2), 0.1)));
+    }
+    for s in [0.4, 1.7, 3.0] {
+        let dart = creased(net(2), &lens_spokes(&[0], 2), s);
+        let through = creased(creased(net(2), &lens_spokes(&[0], 1), s), &lens_spokes(&[1], 2), s + 0.8);
+        cages.push((format!("Chaikin crease into a lens {s}"), chaikin(dart.clone())));
+        cages.push((format!("Chaikin crease through a lens {s}"), chaikin(through.clone())));
+        cages.push((format!("semi-sharp crease into a lens {s}"), dart));
+        cages.push((format!("semi-sharp crease through a lens {s}"), through));
+    }
+    cages
+}
+
 /// A closed body of about a hundred quads with valences 3, 4 and 5.
 pub fn body() -> ControlMesh {
     shaken(shapes::studded_torus(12, 8, 4), 0.2)
@@ -257,6 +410,7 @@ pub fn all() -> Vec<(String, ControlMesh)> {
             &[&[0, 1, 2, 3], &[0, 3, 2, 1]],
         ),
     );
+    lenses().into_iter().for_each(|(name, mesh)| add(&name, mesh));
     add("seven cells", {
         let cells: Vec<[i32; 3]> =
             (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2]).filter(|c| *c != [1, 1, 1]).collect();
@@ -410,7 +564,12 @@ pub fn turned(jet: &SurfaceJet, corner: u32) -> SurfaceJet {
 pub fn scheme() -> impl Strategy<Value = Scheme> {
     let boundary = prop_oneof![Just(Boundary::EdgeAndCorner), Just(Boundary::EdgeOnly), Just(Boundary::None)];
     let creasing = prop_oneof![Just(Creasing::Uniform), Just(Creasing::Chaikin)];
-    (boundary, creasing).prop_map(|(boundary, creasing)| Scheme { boundary, creasing })
+    let lens = prop_oneof![3 => Just([0.5, 0.125]), 1 => Just([0.3, 0.2]), 1 => Just([0.8, 0.04])];
+    (boundary, creasing, lens).prop_map(|(boundary, creasing, [beta, gamma])| Scheme {
+        boundary,
+        creasing,
+        lens: LensShape { beta, gamma },
+    })
 }
 
 fn sharpness() -> impl Strategy<Value = f64> {
@@ -455,6 +614,10 @@ pub fn tagged(points: impl Strategy<Value = Vec<Vec3>>) -> impl Strategy<Value =
         Just(shapes::disk(3, 2)),
         Just(shapes::torus(3, 3)),
         Just(valence_two()),
+        Just(stacked_lenses()),
+        Just(lens_of_polygons()),
+        (1i32..4).prop_map(lens_net),
+        (2u32..4).prop_map(|length| paired_lenses(length, 1)),
         Just(octahedron()),
         (3u32..7).prop_map(prism),
         (1u32..6).prop_map(fan),
