@@ -4,7 +4,9 @@
 mod biquartic;
 mod biquartic_tables;
 mod cap;
+mod circles;
 mod detect;
+mod error;
 mod fan;
 mod layout;
 mod polar;
@@ -13,3 +15,8 @@ pub(crate) mod rule;
 mod treat;
 
 pub use cap::{Cap, CapEdge, CapFace, CapVertex};
+pub use circles::{Circle, PolarNeighbourhood};
+pub use detect::{Detection, Lens, LensKind, LensPair, Pole, detect, regular_net, require_disjoint};
+pub use error::{LensError, Obstacle};
+pub use layout::{BICUBIC_POINTS, LensNet, Symmetry, lattice_index, lattice_point};
+pub use remesh::{Averaging, Remesh, Remeshed, remesh};

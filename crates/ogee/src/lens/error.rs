@@ -1,0 +1,116 @@
+//! What stands in the way of lenses and poles.
+
+use crate::mesh::{FaceId, TopologyError, VertexId};
+
+/// Something near a lens vertex, a pair or a pole that keeps its neighbourhood from being regular and smooth. `layer` counts
+/// from the lens, the slit or the pole: faces of layer 1 touch it, and end at the vertices of layer 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+#[expect(missing_docs, reason = "the message of each variant says what its fields are")]
+pub enum Obstacle {
+    #[error("face {face} in layer {layer} is no quad; refine the cage once first")]
+    NotAQuad { face: FaceId, layer: u32 },
+    #[error("vertex {vertex} in layer {layer} lies on the boundary; move it out by refining or add faces")]
+    Boundary { vertex: VertexId, layer: u32 },
+    #[error("vertex {vertex} in layer {layer} is a lens vertex as well; refine the cage first")]
+    OtherLens { vertex: VertexId, layer: u32 },
+    #[error("vertex {vertex} in layer {layer} has valence {valence}, not 4; refine the cage first")]
+    Extraordinary { vertex: VertexId, valence: u32, layer: u32 },
+    #[error(
+        "edge {a}-{b} is sharp and begins in layer {layer}; take its tag away or split the surface there"
+    )]
+    SharpEdge { a: VertexId, b: VertexId, layer: u32 },
+    #[error("vertex {vertex} in layer {layer} is sharp; take its tag away")]
+    SharpVertex { vertex: VertexId, layer: u32 },
+    #[error("curves meet at a corner of face {face} in layer {layer}; refine the cage first")]
+    Meeting { face: FaceId, layer: u32 },
+    #[error("face {face} in layer {layer} is no part of the surface; take its tag away")]
+    HiddenFace { face: FaceId, layer: u32 },
+}
+
+impl Obstacle {
+    /// A stable name in snake case.
+    pub fn code(self) -> &'static str {
+        match self {
+            Obstacle::NotAQuad { .. } => "not_a_quad",
+            Obstacle::Boundary { .. } => "boundary",
+            Obstacle::OtherLens { .. } => "other_lens",
+            Obstacle::Extraordinary { .. } => "extraordinary",
+            Obstacle::SharpEdge { .. } => "sharp_edge",
+            Obstacle::SharpVertex { .. } => "sharp_vertex",
+            Obstacle::Meeting { .. } => "meeting",
+            Obstacle::HiddenFace { .. } => "hidden_face",
+        }
+    }
+
+    /// In which layer it is.
+    pub fn layer(self) -> u32 {
+        match self {
+            Obstacle::NotAQuad { layer, .. }
+            | Obstacle::Boundary { layer, .. }
+            | Obstacle::OtherLens { layer, .. }
+            | Obstacle::Extraordinary { layer, .. }
+            | Obstacle::SharpEdge { layer, .. }
+            | Obstacle::SharpVertex { layer, .. }
+            | Obstacle::Meeting { layer, .. }
+            | Obstacle::HiddenFace { layer, .. } => layer,
+        }
+    }
+
+    /// How many refinements move it out of the way: each doubles the layer of a vertex, and layers 1 and 2 have to be free. `None` if
+    /// it stays in the way for ever, as a sharp edge does that begins at the lens itself.
+    pub fn refinements(self) -> Option<u32> {
+        match (self, self.layer()) {
+            (Obstacle::NotAQuad { .. } | Obstacle::Meeting { .. } | Obstacle::HiddenFace { .. }, layer) => {
+                match layer {
+                    // After one step what it leaves behind begins at the lens, or one layer out, or beyond.
+                    1 if matches!(self, Obstacle::NotAQuad { .. }) => Some(3),
+                    1 => None,
+                    2 => Some(2),
+                    _ => Some(1),
+                }
+            }
+            (_, 0) => None,
+            (_, 1) => Some(2),
+            _ => Some(1),
+        }
+    }
+}
+
+/// Why something cannot be done with lenses.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+#[expect(missing_docs, reason = "the message of each variant says what its fields are")]
+pub enum LensError {
+    #[error("{0}")]
+    Mesh(TopologyError),
+    #[error(
+        "vertices {} and {} have valence 2 and are neighbours: their two faces are a closed pillow; remove both faces",
+        .vertices[0], .vertices[1]
+    )]
+    AdjacentLensVertices { vertices: [VertexId; 4] },
+    #[error("vertex {vertex} is no inner vertex with two faces; name a lens vertex")]
+    NotALens { vertex: VertexId },
+    #[error("the neighbourhood of vertex {vertex} is not regular: {obstacle}")]
+    Blocked { vertex: VertexId, obstacle: Obstacle },
+    #[error("the lenses at {first} and {second} share vertex {vertex}; refine the cage once first")]
+    SharedVertex { first: VertexId, second: VertexId, vertex: VertexId },
+    #[error(
+        "what is replaced around vertices {first} and {second} shares face {face}; refine the cage once first"
+    )]
+    Overlap { first: VertexId, second: VertexId, face: FaceId },
+}
+
+impl LensError {
+    /// A stable name in snake case.
+    pub fn code(&self) -> &'static str {
+        match self {
+            LensError::Mesh(error) => error.defects.first().map_or("no_faces", |defect| defect.code()),
+            LensError::AdjacentLensVertices { .. } => "adjacent_lens_vertices",
+            LensError::NotALens { .. } => "not_a_lens",
+            LensError::Blocked { .. } => "blocked",
+            LensError::SharedVertex { .. } => "shared_vertex",
+            LensError::Overlap { .. } => "overlap",
+        }
+    }
+}
