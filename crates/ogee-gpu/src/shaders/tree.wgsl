@@ -37,7 +37,9 @@ fn from_corner(corner: u32, at: vec2<f32>) -> vec2<f32> {
 }
 
 fn unit_normal(du: vec3<f32>, dv: vec3<f32>) -> vec3<f32> {
-    let normal = cross(du, dv);
+    // Relative to the longer: down a chain that shrinks by a quarter in each step squares would leave the range of numbers.
+    let longest = max(max(length(du), length(dv)), 1e-30);
+    let normal = cross(du / longest, dv / longest);
     let square = dot(normal, normal);
     return select(vec3<f32>(0.0), normal * inverseSqrt(square), square > 0.0);
 }
