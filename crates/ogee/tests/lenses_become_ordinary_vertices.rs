@@ -5,7 +5,7 @@ mod golden;
 mod lens_nets;
 
 use golden::{faces, index, list};
-use lens_nets::{document, exact_points, pair, single_lens};
+use lens_nets::{document, exact_points, mirrored, pair, single_lens};
 use ogee::lens::{
     Averaging, LensNet, Remesh, Remeshed, Symmetry, detect, lattice_index, lattice_point, remesh,
 };
@@ -220,18 +220,10 @@ fn what_cannot_be_done_is_refused() {
 
 #[test]
 fn symmetric_nets_stay_symmetric() {
-    let average = |symmetry: Symmetry, image: fn(Vec3) -> Vec3| {
+    for symmetry in [Symmetry::Rotation, Symmetry::MirrorX, Symmetry::MirrorY] {
+        let image = |p| mirrored(symmetry, p);
         let net = net25();
-        let point = |k: usize| (net[k] + image(net[symmetry.image(k)])) / 2.0;
-        std::array::from_fn::<Vec3, 25, _>(point)
-    };
-    let cases: [(Symmetry, fn(Vec3) -> Vec3); 3] = [
-        (Symmetry::Rotation, |p| Vec3::new(-p.x, -p.y, p.z)),
-        (Symmetry::MirrorX, |p| Vec3::new(-p.x, p.y, p.z)),
-        (Symmetry::MirrorY, |p| Vec3::new(p.x, -p.y, p.z)),
-    ];
-    for (symmetry, image) in cases {
-        let net = average(symmetry, image);
+        let net = std::array::from_fn(|k| (net[k] + image(net[symmetry.image(k)])) / 2.0);
         for how in ALL {
             let values = how.new_values(&net);
             let at = |k: usize| values.iter().find(|value| value.0 == k).map(|value| value.1);

@@ -51,6 +51,33 @@ pub fn lattice_point(index: usize) -> (i32, i32) {
     }
 }
 
+/// A half of the surface around a lens: a quadrant of the w-plane, half a plane of `z`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quadrant {
+    /// Where `u` and `v` are positive: from point 1 by point 2 to point 3.
+    First,
+    /// The first, turned by 90 degrees: from point 3 by point 4 to point 1.
+    Second,
+}
+
+impl Quadrant {
+    /// Both, in order.
+    pub const BOTH: [Quadrant; 2] = [Quadrant::First, Quadrant::Second];
+
+    /// 0 or 1.
+    pub fn index(self) -> usize {
+        self as usize
+    }
+
+    /// The grid point at `(a, b)` of the quadrant.
+    pub fn point(self, a: i32, b: i32) -> (i32, i32) {
+        match self {
+            Quadrant::First => (a, b),
+            Quadrant::Second => (-b, a),
+        }
+    }
+}
+
 /// A symmetry of the grid, and what it does to `z = w^2`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Symmetry {
@@ -195,11 +222,10 @@ fn extend(topology: &Topology, cells: &mut [[HalfedgeId; 3]; 3], k: usize) -> Re
 impl LensNet {
     /// Notes the vertices of layer `k`, whose cells are known.
     fn fill_layer(&mut self, topology: &Topology, k: usize) {
-        for (q, cells) in self.cells.iter().enumerate() {
+        for (quadrant, cells) in Quadrant::BOTH.into_iter().zip(&self.cells) {
             let mut note = |a: usize, b: usize, vertex: VertexId| {
-                let (a, b) = (a as i32, b as i32);
-                let number = if q == 0 { lattice_index(a, b) } else { lattice_index(-b, a) };
-                self.vertices[number] = vertex;
+                let (i, j) = quadrant.point(a as i32, b as i32);
+                self.vertices[lattice_index(i, j)] = vertex;
             };
             let last = k - 1;
             for s in 0..k {

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![allow(dead_code, unreachable_pub, reason = "each claim uses a part of it")]
 
-use ogee::lens::lattice_index;
+use ogee::lens::{Symmetry, lattice_index};
 use ogee::{ControlMesh, FaceList, Vec3};
 use serde_json::Value;
 use std::path::PathBuf;
@@ -73,4 +73,14 @@ pub fn fan(n: u32, circles: u32) -> ControlMesh {
         }
     }
     mesh(faces)
+}
+
+/// What a symmetry of the grid does in space, to a surface over the plane of `z`.
+pub fn mirrored(symmetry: Symmetry, p: Vec3) -> Vec3 {
+    match symmetry {
+        Symmetry::Identity => p,
+        Symmetry::Rotation => Vec3::new(-p.x, -p.y, p.z),
+        Symmetry::MirrorX => Vec3::new(-p.x, p.y, p.z),
+        Symmetry::MirrorY => Vec3::new(p.x, -p.y, p.z),
+    }
 }
