@@ -8,7 +8,9 @@ use std::process::ExitCode;
 use clap::error::ErrorKind;
 use clap::{Args, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::commands::{check, completions, convert, eval, info, inspect, lines, network, refine, render};
+use crate::commands::{
+    check, completions, convert, eval, info, inspect, lens, lines, network, refine, render,
+};
 use crate::error::{Exit, Failure};
 use crate::{names, output, report};
 
@@ -59,6 +61,7 @@ pub(crate) enum Command {
     Render(Box<render::Render>),
     Lines(Box<lines::Lines>),
     Network(Box<network::Network>),
+    Lens(Box<lens::Lens>),
     Check(check::Check),
     Completions(completions::Completions),
     /// Print the manual of all commands in roff on stdout

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
-use ogee::{Boundary, ControlMesh, Creasing, Defect, Place};
+use ogee::{Boundary, ControlMesh, Creasing, Defect, LensShape, Place};
 use ogee_formats::{CageFile, CageFormat, read_cage};
 
 use crate::error::{Failure, Finding};
@@ -27,6 +27,17 @@ pub(crate) struct CageArguments {
     /// How semi-sharp creases fade [default: what the file says, else uniform]
     #[arg(long, value_name = "RULE", value_parser = CREASINGS)]
     pub(crate) creasing: Option<Creasing>,
+    /// Weights of neighbours and opposite corners at vertices of valence 2 [default: what the file says, else 0.5,0.125]
+    #[arg(long, value_name = "BETA,GAMMA", value_parser = lens_shape)]
+    pub(crate) lens_shape: Option<LensShape>,
+}
+
+/// Two numbers with a comma between them. Whether they make a smooth rule is asked at the gate.
+fn lens_shape(text: &str) -> Result<LensShape, String> {
+    let numbers = text.split_once(',').and_then(|(beta, gamma)| {
+        Some(LensShape { beta: beta.trim().parse().ok()?, gamma: gamma.trim().parse().ok()? })
+    });
+    numbers.ok_or_else(|| "two numbers with a comma between them are wanted, as 0.5,0.125".to_owned())
 }
 
 impl Format for CageFormat {
@@ -76,6 +87,7 @@ impl CageArguments {
         let scheme = &mut file.mesh.scheme;
         scheme.boundary = self.boundary.unwrap_or(scheme.boundary);
         scheme.creasing = self.creasing.unwrap_or(scheme.creasing);
+        scheme.lens = self.lens_shape.unwrap_or(scheme.lens);
         Ok(Cage { name, file, seconds: start.elapsed().as_secs_f64() })
     }
 

@@ -9,6 +9,7 @@
 //! | `cage` | opening and reading a cage |
 //! | `evaluation` | samples in a stream |
 //! | `inspection` | figures on quality: as JSON, as a table, as a page |
+//! | `lenses` | what was done at vertices of valence 2 |
 //! | `output` | whole files or none |
 //! | `part` | making and writing parts |
 //! | `error` | failures, with their place and exit code |
@@ -30,6 +31,7 @@ mod evaluation;
 #[cfg(feature = "gpu")]
 mod gpu;
 mod inspection;
+mod lenses;
 mod names;
 mod output;
 mod part;

@@ -5,6 +5,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Command, Error};
 use ogee::convert::{Method, UpAxis};
 use ogee::curve_network::{Crossing, Placing};
+use ogee::lens;
 use ogee::{Boundary, Creasing, Derivatives};
 use ogee_formats::step::{Schema, Unit};
 
@@ -49,6 +50,20 @@ impl<T: Clone + Send + Sync + 'static> TypedValueParser for Names<T> {
 pub(crate) const METHODS: Names<Method> = Names {
     values: &[("pccm", Method::Pccm), ("pccm-first", Method::PccmFirst), ("bi5", Method::Bi5)],
     elsewhere: &["g2"],
+};
+
+pub(crate) const LENS_METHODS: Names<lens::Method> = Names {
+    values: &[
+        ("auto", lens::Method::Auto),
+        ("c1", lens::Method::C1),
+        ("c2", lens::Method::C2),
+        ("degree-raise", lens::Method::DegreeRaise),
+        ("identify", lens::Method::Identify),
+        ("remove", lens::Method::Remove),
+        ("merge", lens::Method::Merge),
+        ("polar", lens::Method::Polar),
+    ],
+    elsewhere: &[],
 };
 
 pub(crate) const UNITS: Names<Unit> = Names {
@@ -142,7 +157,7 @@ pub(crate) fn formats<F: Format + Send + Sync>() -> Names<F> {
 }
 
 /// Commands and options that the program has but not this build.
-const ELSEWHERE: [&str; 5] = ["lens", "batch", "view", "--lens", "--iges"];
+const ELSEWHERE: [&str; 3] = ["batch", "view", "--iges"];
 
 /// What to say where an unknown word is one of another build.
 pub(crate) fn not_in_this_build(error: &Error) -> Option<String> {

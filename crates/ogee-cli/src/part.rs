@@ -6,6 +6,7 @@ use std::time::Instant;
 use clap::Args;
 use ogee::convert::{ConvertError, Method, Options, Packing, Part, UpAxis, to_part};
 use ogee::curve_network::NetworkCurve;
+use ogee::lens;
 use ogee::pccm::PccmError;
 use ogee::{ControlMesh, Vec3};
 use ogee_formats::step::{Schema, Unit};
@@ -14,7 +15,8 @@ use serde::Serialize;
 
 use crate::cage::Cage;
 use crate::error::{Exit, Failure, Finding};
-use crate::names::{METHODS, SCHEMAS, UNITS, UP_AXES};
+use crate::lenses::{LensReport, lens_counts};
+use crate::names::{LENS_METHODS, METHODS, SCHEMAS, UNITS, UP_AXES};
 use crate::output::{Counter, Destination};
 use crate::report::{Table, count, figure};
 use crate::system;
@@ -37,6 +39,9 @@ pub(crate) struct PartArguments {
     /// Write one face per quad [default for BezierView and JSON]
     #[arg(long)]
     no_pack: bool,
+    /// What to do at vertices of valence 2 and at poles; auto is polar where circles go around, else merge
+    #[arg(long, value_name = "METHOD", default_value = "auto", value_parser = LENS_METHODS)]
+    pub(crate) lens: lens::Method,
     /// What a unit of the cage is
     #[arg(long, default_value = "mm", value_parser = UNITS)]
     pub(crate) unit: Unit,
@@ -94,6 +99,7 @@ pub(crate) struct PartReport {
     max_curvature_jump: f64,
     smooth_edges: usize,
     sharp_edges: usize,
+    lenses: Vec<LensReport>,
 }
 
 impl PartArguments {
@@ -121,6 +127,7 @@ impl PartArguments {
             max_deviation: self.max_deviation,
             packing: if pack { Packing::Packed } else { Packing::Unpacked },
             seams: Vec::new(),
+            lens: lens::Options { method: self.lens, ..lens::Options::default() },
             up: self.up(),
             memory: system::available_memory(),
         }
@@ -211,6 +218,7 @@ impl PartArguments {
             max_curvature_jump: figures.max_curvature_jump,
             smooth_edges: figures.smooth_edges,
             sharp_edges: figures.sharp_edges,
+            lenses: figures.lenses.iter().map(LensReport::new).collect(),
         }
     }
 }
@@ -219,6 +227,7 @@ impl PartArguments {
 fn refusal(cage: &Cage, error: &ConvertError) -> Failure {
     let mut failure = match error {
         ConvertError::Topology(error) => return cage.refused(&error.defects),
+        ConvertError::Lens(error) => return crate::commands::lens::refusal(cage, error),
         _ => cage.failure(error.code(), error.to_string()),
     };
     failure.exit = match error {
@@ -241,6 +250,9 @@ impl PartReport {
         let closed = if report.closed { "closed" } else { "open" };
         table.row("part", format!("{} of {shells}, {closed}", count(report.solids, "solid", "solids")));
         table.row("unit", unit);
+        if !report.lenses.is_empty() {
+            table.row("lenses, poles", lens_counts(&report.lenses));
+        }
         if let Some(volume) = report.volume {
             table.row("volume", format!("{} {unit}^3", figure(volume)));
         }

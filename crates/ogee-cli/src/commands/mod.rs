@@ -6,6 +6,7 @@ pub(crate) mod convert;
 pub(crate) mod eval;
 pub(crate) mod info;
 pub(crate) mod inspect;
+pub(crate) mod lens;
 pub(crate) mod lines;
 mod man;
 pub(crate) mod network;
@@ -24,6 +25,7 @@ pub(crate) fn run(command: &Command, console: &Console) -> Result<ExitCode, Fail
         Command::Info(info) => info.run(console),
         Command::Refine(refine) => refine.run(console),
         Command::Eval(eval) => eval.run(console),
+        Command::Lens(lens) => lens.run(console),
         Command::Lines(lines) => lines.run(console),
         Command::Network(network) => network.run(console),
         Command::Convert(convert) => convert.run(console),

@@ -13,9 +13,9 @@ mod sew;
 pub use curves::largest_distance_to_edges;
 pub use part::{Body, Method, Part, Report};
 
-use crate::lens::Cap;
+use crate::lens::{self, Cap, LensError, PolarFaces, TreatedLens};
 use crate::math::{Grid, Vec3, par};
-use crate::mesh::{ControlMesh, FaceId, HalfedgeId, Meeting, Note, TopologyError, VertexId, notes};
+use crate::mesh::{ControlMesh, HalfedgeId, Meeting, Note, Place, Topology, TopologyError, VertexId, notes};
 use crate::nurbs::{FaceAddress, KnotVector, NurbsSurface};
 use crate::pccm::{self, Chart, Layer, PccmError, Pieces, least_level, pack, unpacked};
 use crate::refine::TooDeep;
@@ -72,6 +72,9 @@ pub struct Options {
     /// Edges of the cage, as pairs of vertices, that stay edges of the part: no packed face crosses them. Curves that end in
     /// a meeting, and everything straight on from them, stay edges in any case.
     pub seams: Vec<[u32; 2]>,
+    /// What is done at vertices of valence 2 and poles, for which patches have no rule. Polar caps have two faces each where quads
+    /// are packed.
+    pub lens: lens::Options,
     /// Turn the part.
     pub up: UpAxis,
     /// Refuse a level that would need more than so many bytes; `None` for no limit.
@@ -88,6 +91,17 @@ pub enum ConvertError {
     /// The method has no rule for it.
     #[error(transparent)]
     Pccm(#[from] PccmError),
+    /// Something is in the way of a vertex of valence 2.
+    #[error(transparent)]
+    Lens(LensError),
+    /// The quintic method is for cages without a boundary, and a cap leaves one.
+    #[error(
+        "bi5 has no patches beside caps, as around vertex {vertex}; use the method pccm, or merge its lens"
+    )]
+    Cap {
+        /// The lens or pole.
+        vertex: VertexId,
+    },
     /// The quintic method has no patches where curves meet.
     #[error("bi5 has no patches where curves meet, as at vertex {vertex}; use the method pccm")]
     Meeting {
@@ -124,12 +138,23 @@ pub enum ConvertError {
     },
 }
 
+impl From<LensError> for ConvertError {
+    fn from(error: LensError) -> ConvertError {
+        match error {
+            LensError::Mesh(error) => ConvertError::Topology(error),
+            _ => ConvertError::Lens(error),
+        }
+    }
+}
+
 impl ConvertError {
     /// A stable name in snake case.
     pub fn code(&self) -> &'static str {
         match self {
             ConvertError::Topology(error) => error.defects[0].code(),
             ConvertError::Pccm(error) => error.code(),
+            ConvertError::Lens(error) => error.code(),
+            ConvertError::Cap { .. } => "cap",
             ConvertError::Meeting { .. } => "meeting",
             ConvertError::Seam { .. } => "seam",
             ConvertError::TooDeep(_) => "too_deep",
@@ -153,14 +178,14 @@ impl ConvertError {
 /// # Errors
 /// If the cage has defects, a vertex that the method has no rule for, or asks for more than a level can give.
 pub fn to_part(mesh: &ControlMesh, options: &Options) -> Result<Part, ConvertError> {
-    let source = Source::new(mesh, options.up)?;
+    let source = Source::new(mesh, options)?;
     if let (Method::Bi5, Some(&Meeting { vertex, .. })) = (options.method, mesh.meetings.first()) {
         return Err(ConvertError::Meeting { vertex });
     }
-    if source.quads.hidden_faces().len() == source.quads.topology().face_count() {
+    if source.caps.is_empty() && source.quads.hidden_faces().len() == source.quads.topology().face_count() {
         return Err(ConvertError::NoSurface);
     }
-    let seams = source.seams(&options.seams)?;
+    let seams = source.seams();
     let least = source.least_level(options.method)?;
     if let Some(level) = options.level.filter(|&level| level > DEEPEST_LEVEL) {
         return Err(ConvertError::LevelTooHigh { level });
@@ -222,36 +247,87 @@ struct Source {
     /// For each quad the piece of the cage that it is.
     addresses: Vec<FaceAddress>,
     cage_faces: usize,
+    /// In terms of the cage as it was made ready.
     caps: Vec<Cap>,
-    /// Refinements from the cage that the caps belong to.
-    cap_steps: u32,
+    /// Edges of that cage.
+    seams: Vec<[u32; 2]>,
+    lenses: Vec<TreatedLens>,
+    /// Refinements before that.
+    steps: u32,
+}
+
+/// A cage without vertices that patches have no rule for, as far as that is wanted.
+fn treated(mesh: &ControlMesh, options: &Options) -> Result<lens::Treated, ConvertError> {
+    let mut choices = options.lens;
+    if options.packing == Packing::Unpacked {
+        choices.faces = PolarFaces::PerSector;
+    }
+    if options.method == Method::Bi5 && choices.method == lens::Method::Auto {
+        choices.method = lens::Method::Merge;
+    }
+    let treated = lens::treat_following(mesh, &choices, &options.seams)?;
+    match treated.lenses.first() {
+        Some(&TreatedLens { vertex, .. }) if options.method == Method::Bi5 && !treated.caps.is_empty() => {
+            Err(ConvertError::Cap { vertex })
+        }
+        _ => Ok(treated),
+    }
+}
+
+fn check_seams(mesh: &ControlMesh, seams: &[[u32; 2]]) -> Result<(), ConvertError> {
+    if seams.is_empty() {
+        return Ok(());
+    }
+    let topology = Topology::new(mesh)?;
+    let is_edge = |&vertices: &[u32; 2]| {
+        vertices.iter().all(|&v| (v as usize) < topology.vertex_count())
+            && find_halfedge(&topology, vertices).is_some()
+    };
+    match seams.iter().copied().find(|vertices| !is_edge(vertices)) {
+        Some(vertices) => Err(ConvertError::Seam { vertices }),
+        None => Ok(()),
+    }
+}
+
+/// The halfedge between two vertices, in either direction.
+fn find_halfedge(topology: &Topology, [a, b]: [u32; 2]) -> Option<HalfedgeId> {
+    let leaves =
+        |from: u32, to: u32| topology.ring(VertexId(from)).find(|&h| topology.target(h) == VertexId(to));
+    leaves(a, b).or_else(|| leaves(b, a))
 }
 
 impl Source {
-    fn new(mesh: &ControlMesh, up: UpAxis) -> Result<Source, TopologyError> {
-        let cage = Level::new(mesh)?;
-        let points: Vec<Vec3> = mesh.points.iter().map(|&p| up.turn(p)).collect();
+    fn new(mesh: &ControlMesh, options: &Options) -> Result<Source, ConvertError> {
+        check_seams(mesh, &options.seams)?;
+        let points: Vec<Vec3> = mesh.points.iter().map(|&p| options.up.turn(p)).collect();
         let first = points.first().copied().unwrap_or(Vec3::ZERO);
         let [low, high] = points.iter().fold([first, first], |[low, high], &p| [low.min(p), high.max(p)]);
         // Rounding grows with the distance from the origin.
         let centre = low.lerp(high, 0.5);
-        let centred: Vec<Vec3> = points.into_iter().map(|p| p - centre).collect();
-        let topology = cage.topology();
-        let faces = (0..topology.face_count() as u32).map(FaceId);
+        let points = points.into_iter().map(|p| p - centre).collect();
+        let treated = treated(&ControlMesh { points, ..mesh.clone() }, options)?;
+
+        let cage = treated.level;
         let mut source = Source {
             centre,
             size: low.distance(high),
-            cage_faces: topology.face_count(),
-            addresses: faces.clone().map(|face| FaceAddress { face, corner: None }).collect(),
-            points: centred,
+            cage_faces: mesh.faces.len(),
+            addresses: treated.addresses,
+            points: treated.mesh.points,
             quads: cage.clone(),
             cage: None,
-            caps: Vec::new(),
-            cap_steps: 0,
+            caps: treated.caps,
+            seams: treated.edges,
+            lenses: treated.lenses,
+            steps: treated.steps,
         };
+        let topology = cage.topology();
         if !topology.is_quads() {
-            let corners = faces.flat_map(|face| {
-                (0..topology.face_size(face)).map(move |corner| FaceAddress { face, corner: Some(corner) })
+            let halfedges = (0..topology.halfedge_count() as u32).map(HalfedgeId);
+            let corners = halfedges.map(|h| {
+                let face = topology.face(h);
+                let whole = source.addresses[face.index()];
+                FaceAddress { corner: whole.corner.or(Some(h.0 - topology.first(face).0)), ..whole }
             });
             source.addresses = corners.collect();
             (source.quads, source.points) = cage.refine_points(&source.points);
@@ -260,26 +336,33 @@ impl Source {
         Ok(source)
     }
 
+    /// Refinements from the cage with its caps to the quads.
+    fn cap_steps(&self) -> u32 {
+        u32::from(self.cage.is_some())
+    }
+
     /// The halfedges of the quads along edges of the cage.
-    fn seams(&self, edges: &[[u32; 2]]) -> Result<Vec<HalfedgeId>, ConvertError> {
+    fn seams(&self) -> Vec<HalfedgeId> {
         let topology = self.cage.as_ref().unwrap_or(&self.quads).topology();
-        let mut seams = Vec::with_capacity(edges.len());
-        for &vertices in edges {
-            let [a, b] = vertices;
-            let inside = vertices.iter().all(|&v| (v as usize) < topology.vertex_count());
-            let leaves = |from: u32, to: u32| {
-                let ring = inside.then(|| topology.ring(VertexId(from)));
-                ring.into_iter().flatten().find(|&h| topology.target(h).0 == to)
-            };
-            let h = leaves(a, b).or_else(|| leaves(b, a)).ok_or(ConvertError::Seam { vertices })?;
-            if self.cage.is_some() {
-                // The two halves: the first side of quad h, and the last of the quad after it.
-                seams.extend([HalfedgeId(4 * h.0), HalfedgeId(4 * topology.next(h).0 + 3)]);
-            } else {
-                seams.push(h);
-            }
+        let found = self.seams.iter().filter_map(|&vertices| find_halfedge(topology, vertices));
+        if self.cage.is_none() {
+            return found.collect();
         }
-        Ok(seams)
+        // The two halves: the first side of quad h, and the last of the quad after it.
+        found.flat_map(|h| [HalfedgeId(4 * h.0), HalfedgeId(4 * topology.next(h).0 + 3)]).collect()
+    }
+
+    /// What refinement for the sake of lenses is worth saying.
+    fn refined_for_lenses(&self) -> Option<Note> {
+        let vertex = self.lenses.first().filter(|_| self.steps > 0)?.vertex;
+        let times = match self.steps {
+            1 => "once".to_owned(),
+            steps => format!("{steps} times"),
+        };
+        let message = format!(
+            "the cage was refined {times}, to make room around vertices of valence 2 such as {vertex}"
+        );
+        Some(Note { code: "lens_refined", message, place: Some(Place::Vertex(vertex.0)) })
     }
 
     fn least_level(&self, method: Method) -> Result<u32, PccmError> {
@@ -423,14 +506,18 @@ fn finish(
 ) -> Part {
     let mut all_notes = notes(mesh);
     all_notes.extend_from_slice(patches.notes());
+    all_notes.extend(source.refined_for_lenses());
     let address = |quad: u32| patches.address(source, quad);
     let mut sewing = Seams::new(&patches.base, patches.broken());
     let charts = patches.charts(options.packing, seams);
     let mut faces: Vec<Face> =
         charts.into_iter().map(|(chart, surface)| sewing.chart(&chart, surface, address)).collect();
+    let charts = faces.len();
     for cap in &source.caps {
-        faces.extend(sewing.cap(cap, source.cap_steps));
+        faces.extend(sewing.cap(cap, source.cap_steps()));
     }
+    let spans = |face: &Face| face.surface.u.spans().count() * face.surface.v.spans().count();
+    let cap_patches: usize = faces[charts..].iter().map(spans).sum();
     let shells = sew::sew(&sewing, faces);
     let mut bodies = bodies::bodies(shells, &mut all_notes);
 
@@ -445,7 +532,9 @@ fn finish(
         method: options.method,
         level: patches.level,
         cage_faces: source.cage_faces,
-        patches: patches.surfaces.len() - patches.base.hidden_faces().len(),
+        patches: patches.surfaces.len() - patches.base.hidden_faces().len() + cap_patches,
+        lenses: source.lenses.clone(),
+        lens_steps: source.steps,
         max_deviation: deviation,
         max_deviation_relative: if source.size > 0.0 { deviation / source.size } else { 0.0 },
         closed: true,

@@ -1,5 +1,6 @@
 //! `Part`: what is exported, with the figures that prove it.
 
+use crate::lens::TreatedLens;
 use crate::math::Vec3;
 use crate::mesh::Note;
 use crate::nurbs::Shell;
@@ -114,6 +115,10 @@ pub struct Report {
     pub smooth_edges: usize,
     /// Shared edges that are not.
     pub sharp_edges: usize,
+    /// What was done at vertices of valence 2 and at poles, by vertex.
+    pub lenses: Vec<TreatedLens>,
+    /// How often the cage was refined to make room around them.
+    pub lens_steps: u32,
     /// What the user should know.
     pub notes: Vec<Note>,
 }

@@ -69,6 +69,13 @@ pub struct Pole {
     pub neighbourhood: Result<PolarNeighbourhood, Obstacle>,
 }
 
+impl LensPair {
+    /// The two lenses.
+    pub fn ends(&self) -> [VertexId; 2] {
+        [self.slit[0], self.slit[self.slit.len() - 1]]
+    }
+}
+
 impl Detection {
     /// The lenses whose neighbourhood is regular.
     pub fn isolated(&self) -> impl Iterator<Item = &Lens> {

@@ -1,5 +1,6 @@
 //! What stands in the way of lenses and poles.
 
+use super::polar_error::PolarError;
 use crate::mesh::{FaceId, TopologyError, VertexId};
 
 /// Something near a lens vertex, a pair or a pole that keeps its neighbourhood from being regular and smooth. `layer` counts
@@ -99,6 +100,12 @@ pub enum LensError {
         "what is replaced around vertices {first} and {second} shares face {face}; refine the cage once first"
     )]
     Overlap { first: VertexId, second: VertexId, face: FaceId },
+    #[error(
+        "the lens at vertex {vertex} has no circles around it ({why}), which a polar cap wants; use merge or c2"
+    )]
+    NoPartner { vertex: VertexId, why: &'static str },
+    #[error(transparent)]
+    Polar(#[from] PolarError),
 }
 
 impl LensError {
@@ -111,6 +118,8 @@ impl LensError {
             LensError::Blocked { .. } => "blocked",
             LensError::SharedVertex { .. } => "shared_vertex",
             LensError::Overlap { .. } => "overlap",
+            LensError::NoPartner { .. } => "no_partner",
+            LensError::Polar(error) => error.code(),
         }
     }
 }

@@ -21,6 +21,7 @@ mod polar_sector;
 mod quartic;
 mod refit;
 mod remesh;
+mod rework;
 pub(crate) mod rule;
 mod treat;
 
@@ -45,3 +46,5 @@ pub use polar_faces::PolarFaces;
 pub use polar_sector::PolarVariant;
 pub use refit::refit_operator;
 pub use remesh::{Averaging, Remesh, Remeshed, remesh};
+pub(crate) use treat::treat_following;
+pub use treat::{Method, Options, Treated, TreatedLens, treat};
