@@ -273,7 +273,6 @@ fn what_this_build_does_not_have_is_said() {
     let folder = Folder::with_cube();
     for arguments in [
         "convert cube.obj -o a.step --method g2",
-        "convert cube.obj -o a.step --lens c2",
         "convert cube.obj -o a.step --iges 186",
         "convert cube.obj -o a.iges",
         "convert cube.obj -o a.IGS",
@@ -283,7 +282,6 @@ fn what_this_build_does_not_have_is_said() {
         "refine cube.obj -l 1 -o a.3mf",
         "refine cube.obj -l 1 -o a.usda",
         "eval cube.obj --uniform 2 -o a.csv --lens c1",
-        "lens cube.obj",
         #[cfg(not(feature = "gpu"))]
         "render cube.obj -o a.png --device gpu",
         "batch plan",

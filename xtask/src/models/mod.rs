@@ -19,6 +19,7 @@ mod stars;
 mod sweep;
 #[cfg(test)]
 mod tests;
+mod urchin;
 mod vase;
 mod write;
 mod yacht;
@@ -72,6 +73,7 @@ fn all() -> Vec<Model> {
         knot::model(),
         mug::model(),
         stars::model(),
+        urchin::model(),
         vase::model(),
     ]
 }
