@@ -59,19 +59,12 @@ impl Obstacle {
     }
 
     /// How many refinements move it out of the way: each doubles the layer of a vertex, and layers 1 and 2 have to be free. `None` if
-    /// it stays in the way for ever, as a sharp edge does that begins at the lens itself.
+    /// it stays where it is, as a sharp edge does that begins at the lens itself, and a hidden face that touches it.
     pub fn refinements(self) -> Option<u32> {
         match (self, self.layer()) {
-            (Obstacle::NotAQuad { .. } | Obstacle::Meeting { .. } | Obstacle::HiddenFace { .. }, layer) => {
-                match layer {
-                    // After one step what it leaves behind begins at the lens, or one layer out, or beyond.
-                    1 if matches!(self, Obstacle::NotAQuad { .. }) => Some(3),
-                    1 => None,
-                    2 => Some(2),
-                    _ => Some(1),
-                }
-            }
-            (_, 0) => None,
+            // What a polygon leaves behind is a vertex in layer 1.
+            (Obstacle::NotAQuad { .. }, 1) => Some(3),
+            (Obstacle::HiddenFace { .. }, 1) | (_, 0) => None,
             (_, 1) => Some(2),
             _ => Some(1),
         }
