@@ -34,7 +34,7 @@ impl PolarCap {
     /// of the first two have valence 4.
     ///
     /// The pole is any point: the limit point of a fan ([`super::PolarNet::limit`]), the middle of a slit
-    /// ([`super::pair_pole`]).
+    /// ([`pair_pole`](fn@super::pair_pole)).
     ///
     /// ```
     /// use ogee::Vec3;
@@ -134,8 +134,8 @@ impl PolarCap {
         &self.patches[sector]
     }
 
-    /// Position, tangents, and second derivatives at the pole, in the chart `X = r E` where `E` is the periodic cubic with the control points
-    /// `(cos 2 pi i / n, sin 2 pi i / n)` around: `du` and `dv` are `t1` and `t2`, `duu`, `duv`, `dvv` are `2 h11`, `h12`, `2
+    /// Position, tangents, and second derivatives at the pole, in the chart `X = r E` where `E` is the periodic cubic with the
+    /// control points `(cos 2 pi i / n, sin 2 pi i / n)` around: `du` and `dv` are `t1` and `t2`, `duu`, `duv`, `dvv` are `2 h11`, `h12`, `2
     /// h22`. Normal and curvature of the surface at the pole are those of the jet; of 55 the curvature is that of the quadratic
     /// which it comes near.
     pub fn pole(&self) -> SurfaceJet {
@@ -144,8 +144,8 @@ impl PolarCap {
     }
 
     /// Position and derivatives: `u` is the radius in `[0, 2]` and `v` goes from 0 to 1 around the sector, so that `du x dv` is the
-    /// side on which circles are counter-clockwise. At radius 0 `dv` and `dvv` vanish: see [`PolarCap::pole`]. On radius 1 the values of the
-    /// outer patch, which are those of the inner one.
+    /// side on which circles are counter-clockwise. At radius 0 `dv` and `dvv` vanish: see [`PolarCap::pole`]. On radius 1 the
+    /// values of the outer patch, which are those of the inner one.
     ///
     /// # Panics
     /// If there is no such sector.
