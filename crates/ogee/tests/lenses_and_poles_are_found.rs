@@ -168,6 +168,16 @@ fn poles_have_their_circles() {
     let short = find(&fan(6, 2));
     assert_eq!(short.poles[0].neighbourhood.as_ref().unwrap_err().code(), "boundary");
     assert!(find(&fan(6, 1)).poles.is_empty(), "its triangles end at the boundary");
+    // One more quad at a vertex of the ring, which touches no triangle.
+    let mut faces = FaceList::new();
+    for face in fan(6, 2).faces.iter() {
+        let from_the_last_column = face.contains(&6) && face.contains(&1) && face.len() == 4;
+        faces.push(
+            &face.iter().map(|&v| if from_the_last_column && v == 7 { 13 } else { v }).collect::<Vec<_>>(),
+        );
+    }
+    faces.push(&[1, 13, 14, 7]);
+    assert!(find(&mesh(faces)).poles.is_empty());
     let upper = (0..4).map(|x| [0, 1 + x, 1 + (x + 1) % 4]);
     let lower = (0..4).map(|x| [5, 1 + (x + 1) % 4, 1 + x]);
     let octahedron = mesh(upper.chain(lower).collect());

@@ -87,8 +87,8 @@ pub enum LensError {
     NotALens { vertex: VertexId },
     #[error("the neighbourhood of vertex {vertex} is not regular: {obstacle}")]
     Blocked { vertex: VertexId, obstacle: Obstacle },
-    #[error("the lenses at {first} and {second} share vertex {vertex}; refine the cage once first")]
-    SharedVertex { first: VertexId, second: VertexId, vertex: VertexId },
+    #[error("the lens at vertex {vertex} is named twice; name it once")]
+    NamedTwice { vertex: VertexId },
     #[error(
         "what is replaced around vertices {first} and {second} shares face {face}; refine the cage once first"
     )]
@@ -109,7 +109,7 @@ impl LensError {
             LensError::AdjacentLensVertices { .. } => "adjacent_lens_vertices",
             LensError::NotALens { .. } => "not_a_lens",
             LensError::Blocked { .. } => "blocked",
-            LensError::SharedVertex { .. } => "shared_vertex",
+            LensError::NamedTwice { .. } => "named_twice",
             LensError::Overlap { .. } => "overlap",
             LensError::NoPartner { .. } => "no_partner",
             LensError::Polar(error) => error.code(),
