@@ -544,6 +544,18 @@ fn where_tangents_are_parallel_there_is_no_normal() {
     let point = surface.eval(table.locate(FaceId(0), None, 0.0, 0.0).unwrap());
     assert!(point.flags.contains(Flags::NORMAL_UNDEFINED) && point.normal == Vec3::ZERO);
     assert!(point.position.is_finite() && point.du.is_finite() && point.dv.is_finite());
+    // Only the neighbours coincide: the surface has normals all around, and none at the vertex.
+    let mut pinched = net(sample_net(), SHAPES[0]);
+    pinched.points[3] = pinched.points[1];
+    let level = Level::new(&pinched).unwrap();
+    assert_eq!(limit_vertices(&level, &pinched.points)[0].normal, None);
+    let table = PatchTable::new(&level);
+    let surface = LimitSurface::new(&table, &pinched.points);
+    for face in [0, 1] {
+        let at = |u: f64, v: f64| surface.eval(table.locate(FaceId(face), None, u, v).unwrap());
+        assert!(at(0.0, 0.0).flags.contains(Flags::NORMAL_UNDEFINED) && at(0.0, 0.0).normal == Vec3::ZERO);
+        assert!(!at(1e-3, 1e-3).flags.contains(Flags::NORMAL_UNDEFINED));
+    }
 }
 
 #[test]
