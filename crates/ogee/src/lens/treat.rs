@@ -187,7 +187,7 @@ pub(crate) fn treat_following(
         let found = detect(&level)?;
         if options.method == Method::C1 {
             treatment.leave_lenses(&found);
-            treatment.leave_poles(&found, |_| "nothing was asked for".to_owned());
+            treatment.leave_poles(&found, |_| "asked for".to_owned());
             break level;
         }
         let choices = treatment.choices(&level, &found)?;
@@ -195,7 +195,9 @@ pub(crate) fn treat_following(
             continue;
         }
         if treatment.work.steps == 0 {
+            let is_for_poles = treatment.caps_poles();
             treatment.leave_poles(&found, |pole| match &pole.neighbourhood {
+                _ if !is_for_poles => format!("{} is for lenses alone", options.method.name()),
                 Ok(_) => "no tangent plane at the pole, or another cap is in the way".to_owned(),
                 Err(obstacle) => obstacle.to_string(),
             });
@@ -360,7 +362,8 @@ impl Treatment<'_> {
                 _ => {}
             }
         }
-        let has_poles = self.work.steps == 0 && matches!(self.options.method, Method::Auto | Method::Polar);
+        // One refinement later a fan of triangles is none.
+        let has_poles = self.work.steps == 0 && self.caps_poles();
         for pole in found.poles.iter().filter(|_| has_poles) {
             let Ok(circles) = &pole.neighbourhood else { continue };
             let net = PolarNet {
@@ -386,6 +389,10 @@ impl Treatment<'_> {
         }
         self.work.cut(&site.inside, &site.support, site.caps);
         Ok(true)
+    }
+
+    fn caps_poles(&self) -> bool {
+        matches!(self.options.method, Method::Auto | Method::Polar)
     }
 
     fn polar(&self, circles: &PolarNeighbourhood, pole: Vec3) -> Result<Cap, PolarError> {
