@@ -79,7 +79,7 @@ pub(super) fn single() -> Example {
 pub(super) fn pair() -> Example {
     Example {
         letter: 'b',
-        title: "a pair of lenses on the same",
+        title: "a pair of lenses on that paraboloid",
         mesh: around_slit(5, |x, y| {
             let (angle, radius) = (f64::from(x) * FRAC_PI_4, f64::from(y) * FRAC_PI_4);
             let (x, y) = (radius.cosh() * angle.cos(), radius.sinh() * angle.sin());
@@ -119,9 +119,9 @@ pub(super) fn tip() -> Example {
         is_inside: |p| p.z > -1.5,
         reference: None,
         look: Look {
-            from: Vec3::new(0.25, -0.55, 1.0),
-            at: Vec3::new(0.0, 0.0, -0.22),
-            height: 1.5,
+            from: Vec3::new(0.5, -0.55, 1.1),
+            at: Vec3::new(0.0, 0.0, -0.16),
+            height: 1.25,
             light: Light::Around { axis: Vec3::new(0.3, 0.2, 1.0), count: 8.0 },
             curvature: 20.0,
         },

@@ -81,6 +81,8 @@ fn deviation(found: &Figures, first: &Figures) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use ogee::lens::PolarVariant;
+
     use super::*;
     use crate::reproduce::lens::nets::{pair, single, tip};
 
@@ -116,16 +118,27 @@ mod tests {
         }
     }
 
+    /// The net of the first figures is lost; methods stand to each other as they did.
     #[test]
-    fn plain_bi_4_nets_bend_most_at_a_wing_tip() {
-        let found = column(&tip()).unwrap();
-        let peak = |name: &str| {
-            let method = Method::ALL.iter().position(|method| method.name() == name).unwrap();
-            found[method].unwrap().range[0].abs()
+    fn methods_keep_their_order_at_a_wing_tip() {
+        let column = column(&tip()).unwrap();
+        let by_peak = |of: Vec<Option<Figures>>| {
+            let known = Method::ALL.iter().zip(of).zip(FIRST);
+            let mut peaks: Vec<_> = known
+                // Polar caps 65 and 55 are alike.
+                .filter(|((method, _), first)| {
+                    **method != Method::Polar(PolarVariant::FiveFive) && first[2].is_some()
+                })
+                .map(|((method, found), _)| (method.name(), found.unwrap().range[0]))
+                .collect();
+            peaks.sort_by(|a, b| b.1.total_cmp(&a.1));
+            peaks
         };
-        let [plain, refitted] = ["bi-4 plain", "bi-4 + Fig. 10"].map(peak);
-        assert!(refitted < 0.8 * plain, "{plain} and {refitted}");
-        assert!(peak("Fig. 11 left") < refitted && refitted < peak("Fig. 11 right"));
-        assert!(peak("Fig. 12 axis") < refitted && peak("polar 65") < 1.05 * refitted);
+        let (own, first) = (by_peak(column), by_peak(FIRST.iter().map(|first| first[2]).collect()));
+        for (own, first) in own.iter().zip(&first) {
+            assert_eq!(own.0, first.0, "{own:?} against {first:?}");
+        }
+        let ratio = |peaks: &[(&str, f64)]| peaks[peaks.len() - 1].1 / peaks[0].1;
+        assert!((ratio(&own) / ratio(&first) - 1.0).abs() < 0.15, "{own:?} against {first:?}");
     }
 }
