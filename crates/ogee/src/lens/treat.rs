@@ -238,14 +238,13 @@ struct Treatment<'a> {
 impl Treatment<'_> {
     fn choices<'a>(&self, level: &Level, found: &'a Detection) -> Result<Vec<Choice<'a>>, LensError> {
         let guarded = self.guarded(level);
-        let mut taken: Vec<Option<VertexId>> = vec![None; level.topology().vertex_count()];
         let mut choices = Vec::with_capacity(found.lenses.len());
         for lens in &found.lenses {
             let mut choice = self.choice(found, lens)?;
-            if let Plan::Remesh(net, _) = choice.plan {
-                if let Some(error) = in_the_way(lens, net, &guarded, &mut taken) {
-                    choice.plan = Plan::Wait(error);
-                }
+            if let Plan::Remesh(net, _) = choice.plan
+                && let Some(error) = in_the_way(lens, net, &guarded)
+            {
+                choice.plan = Plan::Wait(error);
             }
             choices.push(choice);
         }
@@ -467,7 +466,6 @@ impl Treatment<'_> {
                 };
                 faded || obstacle.refinements().is_some_and(|steps| steps <= left)
             }
-            LensError::SharedVertex { .. } | LensError::Overlap { .. } => left > 0,
             _ => false,
         }
     }
@@ -480,24 +478,11 @@ impl Treatment<'_> {
     }
 }
 
-/// What keeps a lens from being re-meshed beside others, and beside caps.
-fn in_the_way(
-    lens: &Lens,
-    net: &LensNet,
-    guarded: &[bool],
-    taken: &mut [Option<VertexId>],
-) -> Option<LensError> {
-    let changed = &net.vertices[..5];
-    if let Some(&vertex) = changed.iter().find(|v| guarded[v.index()]) {
-        // A cap hangs on it.
-        let obstacle = Obstacle::Boundary { vertex, layer: 2 };
-        return Some(LensError::Blocked { vertex: lens.vertex, obstacle });
-    }
-    if let Some((first, vertex)) = changed.iter().find_map(|&v| taken[v.index()].map(|first| (first, v))) {
-        return Some(LensError::SharedVertex { first, second: lens.vertex, vertex });
-    }
-    changed.iter().for_each(|v| taken[v.index()] = Some(lens.vertex));
-    None
+/// What keeps a lens from being re-meshed: a cap hangs on a vertex that would move. Two lenses with regular nets have none of
+/// these vertices in common.
+fn in_the_way(lens: &Lens, net: &LensNet, guarded: &[bool]) -> Option<LensError> {
+    let vertex = net.vertices[..5].iter().copied().find(|v| guarded[v.index()])?;
+    Some(LensError::Blocked { vertex: lens.vertex, obstacle: Obstacle::Boundary { vertex, layer: 2 } })
 }
 
 /// Where caps come to stand.
