@@ -94,12 +94,12 @@ that a small gradient can be bought by moving the surface: figure 11 left flatte
 which one of the three differs. Of that program's regions, samples and steps only an outline is known; the rest was chosen here by looking at
 which choice comes nearest, so agreement is weaker evidence than it seems:
 
-- Net and region of (a) and the number of rings are what the outline says; the scale of the net, w^2/4, is the one of three tried
-  (1/4, 1/2 and 3/4) with the first least ratio, 1.04.
+- Paraboloid, region and rings of (a) are what the outline says; the scale of the net, w^2/4, is the one of three tried (1/4, 1/2 and
+  3/4) with the first least ratio, 1.04. Samples and weights are those, of some tried, that fit the first two rows.
 - Six steps at valence 3, where a lens has rings 0 to 5: in (a) the greatest ratios of figure 11 are 1.98 and 2.14 after five steps, 2.02 and
   2.19 after six, and the latter are the first ones. With five steps rows of figures 11 and 12 are up to 5.7 % apart in (a) and 8.7 % in (b).
 - The ellipse of (b) was not given. Of 675 tried (half axes from 1.80 to 3.00 and from 1.20 to 2.50, by 0.05) 37 leave all gradients within
-  5 %, with half axes from 1.85 to 2.40 and from 2.05 to 2.35; the one taken is among such, a round one and not the best. Ranges do not
+  5 %, with half axes from 1.85 to 2.40 and from 2.05 to 2.35; the one taken is among these, a plain one and not the best. Ranges hardly
   depend on it, gradients do: seen by themselves, those of (b) are a fit.
 
 ";
@@ -126,11 +126,11 @@ A pair with four edges between closes the tip of a wing. Sections are ellipses, 
 0.89, 0.96, 0.80, 0.80 and half thicknesses of 0, 0.083, 0.15, 0.28, 0.26, 0.26, at 0, 0.08, 0.33, 1.13, 1.90, 2.70 below the tip;
 measured to 1.5 below it. Mean curvature is given as it is, not as a share, and is negative, for normals that point out.
 
-The first figures belong to another net, which is lost. This one is ours; it was shaped, for all methods together, until its figures
-were of the same kind, by a search over its half axes and heights that looked at all the first figures, and the depth to which it is
-measured was chosen after seeing them; that they come near the first ones proves nothing. What can be compared is how methods stand to each
-other: the greatest curvature puts them in the same order, and from the best to the worst there is about the same ratio. By
-Catmull-Clark and by the bi-3 rule curvature has no bound; their figures are those that ring 5 ends with.
+The first figures belong to another net, which is lost. This one is ours, and was shaped until its figures were of the same kind:
+by a search over half axes and heights that looked at the first figures of all methods but the first two rows; the depth to which it is
+measured was chosen after seeing them. So that they come near the first ones, and put the methods in the same order, proves
+nothing but that there is such a wing: on others the order may differ. By Catmull-Clark and by the bi-3 rule curvature has no
+bound; their figures are those that ring 5 ends with.
 
 ";
 

@@ -118,7 +118,7 @@ mod tests {
         }
     }
 
-    /// The net of the first figures is lost; methods stand to each other as they did.
+    /// The net of the first figures is lost, and this one was shaped after them: a guard against change, no evidence.
     #[test]
     fn methods_keep_their_order_at_a_wing_tip() {
         let column = column(&tip()).unwrap();
