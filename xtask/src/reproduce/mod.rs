@@ -4,4 +4,6 @@
 mod adapters;
 pub(crate) mod curve_networks;
 pub(crate) mod interrogation;
+pub(crate) mod lens;
+mod plot;
 mod timing;

@@ -2,8 +2,8 @@
 
 use ogee::curve_network::{XMatrix, default_parameter};
 
-use super::plot::{Anchor, COLOURS, Panel, Svg};
 use crate::bench::report::Table;
+use crate::reproduce::plot::{Anchor, COLOURS, Panel, Svg};
 
 /// The numbers of ports that are shown.
 const PORTS: [usize; 7] = [2, 3, 4, 5, 6, 7, 8];

@@ -6,8 +6,8 @@ use anyhow::{Context, Result};
 use ogee::curve_network::{CurveNetwork, Embedding, NetworkCurve, default_parameter, embed};
 use ogee::{Derivatives, Level, LimitSurface, Location, PatchTable, Vec3, shapes};
 
-use super::plot::{Anchor, COLOURS, INK, Panel, Svg};
 use super::settling::slices;
+use crate::reproduce::plot::{Anchor, COLOURS, INK, Panel, Svg};
 
 /// How near to the meeting point: far enough in for one ring to be like the next.
 const NEAR: f64 = 1.0 / 4096.0;

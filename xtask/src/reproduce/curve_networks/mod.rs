@@ -8,7 +8,6 @@ mod examples;
 mod forms;
 mod maps;
 mod picture;
-mod plot;
 mod polyhedron;
 mod settling;
 
