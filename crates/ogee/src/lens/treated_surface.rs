@@ -102,6 +102,9 @@ impl Evaluator for TreatedSurface<'_> {
 
     fn eval_into(&self, at: &[Location], what: Derivatives, out: &mut Samples) {
         self.limit.eval_into(at, what, out);
+        if self.covered.is_empty() {
+            return;
+        }
         let covered: Vec<usize> = (0..at.len()).filter(|&i| self.covered.contains_key(&at[i].root)).collect();
         let jets = par::collect(covered.len(), |k| Some(self.on_cap(at[covered[k]])?.jet()));
         for (i, point) in covered.into_iter().zip(jets) {
