@@ -11,8 +11,9 @@ from conftest import Converted, Converter
 from occ import Kind
 
 URCHIN = ogee.ROOT / "models" / "urchin.obj"
+WING = ogee.ROOT / "testdata" / "lens" / "wing.obj"
 
-METHODS = ("auto", "c2", "degree-raise", "identify", "remove", "merge")
+METHODS = ("auto", "polar", "c2", "degree-raise", "identify", "remove", "merge")
 
 TOLERANCE = 1e-6
 """Millimetres."""
@@ -20,21 +21,22 @@ TOLERANCE = 1e-6
 ANGLE = 1e-6
 """Degrees."""
 
+NEAR_A_SINGULAR_CORNER = 1e-3
+"""Degrees. The two patches that close rings have no derivative at the lens, and curves in their parameters, which
+OpenCASCADE fits to 1e-7 mm, err there: 4e-4 on a part of 12 mm."""
+
 
 @pytest.fixture(scope="module", params=[(method, packing) for method in METHODS for packing in ("--pack", "--no-pack")],
                 ids=lambda param: "".join(param))
 def part(request: pytest.FixtureRequest, converted: Converter) -> Converted:
     method, packing = request.param
-    return converted(URCHIN, "--lens", method, packing)
+    return converted(WING, "--lens", method, packing)
 
 
 def test_forty_lenses_and_six_poles_are_seen_to(converted: Converter) -> None:
     lenses = converted(URCHIN, "--lens", "auto", "--pack").report["lenses"]
-    assert Counter((lens["method"], lens["paired_with"] is None) for lens in lenses) == {
-        ("polar", False): 32,
-        ("polar", True): 6,
-        ("merge", True): 8,
-    }
+    assert Counter(lens["method"] for lens in lenses) == {"polar": 38, "merge": 8}
+    assert sum(lens["method"] == "polar" and lens["paired_with"] is not None for lens in lenses) == 32
     assert all(lens["reason"] for lens in lenses)
 
 
@@ -59,5 +61,14 @@ def test_poles_are_edges_without_length(converted: Converter) -> None:
 
 def test_faces_meet_smoothly(part: Converted) -> None:
     assert part.report["sharp_edges"] == 0
+    assert part.report["max_normal_angle_deg"] <= ANGLE
     assert part.joins.gap <= TOLERANCE
-    assert part.joins.smooth_angle <= ANGLE
+    is_closed_by_rings = any(lens["method"] in ("c2", "degree-raise") for lens in part.report["lenses"])
+    assert part.joins.smooth_angle <= (NEAR_A_SINGULAR_CORNER if is_closed_by_rings else ANGLE)
+
+
+def test_the_urchin_is_one_smooth_solid(converted: Converter) -> None:
+    made = converted(URCHIN, "--lens", "auto", "--pack")
+    assert made.model.is_valid and made.model.solids == 1 and not made.model.edges.free
+    assert made.joins.gap <= TOLERANCE
+    assert made.joins.smooth_angle <= ANGLE

@@ -72,6 +72,17 @@ fn outlines_are_closed_and_every_inner_edge_has_two_faces() {
                 }
                 (_, _, &[(f, one), (g, other)]) => {
                     assert_eq!((one.from, one.to), (other.to, other.from), "in opposite directions");
+                    if [one, other].iter().all(|edge| (edge.range[0] - edge.range[1]).abs() == 1.0) {
+                        let rows = [(f, one), (g, other)]
+                            .map(|(f, edge)| cap.faces[f].surface.side(edge.side).points);
+                        // Loops run in opposite directions, and along falling parameters on two sides of four.
+                        let falls = [one, other].map(|edge| edge.range[0] > edge.range[1]);
+                        let mut last = rows[1].clone();
+                        if falls[0] == falls[1] {
+                            last.reverse();
+                        }
+                        assert_eq!(rows[0], last, "the same bits");
+                    }
                     for k in 0..=8 {
                         let t = f64::from(k) / 8.0;
                         let at = |f: usize, edge: CapEdge, t: f64| {
@@ -94,6 +105,8 @@ fn outlines_are_closed_and_every_inner_edge_has_two_faces() {
         assert_eq!(outline, 8);
         assert_eq!(uses.len(), 8 + (6 * rings as usize + 2) * 4 / 2 - 4 + 2 * (rings as usize - 1));
         let faces: Vec<FaceAddress> = cap.faces.iter().map(|face| face.pieces[(0, 0)]).collect();
+        let centre = [site.pieces[0][0], site.pieces[1][0]];
+        assert!(faces[6..].iter().all(|address| centre.contains(address)));
         let mut first: Vec<FaceAddress> = faces[..6].to_vec();
         first.extend(&faces[6 * rings as usize..]);
         first.sort();

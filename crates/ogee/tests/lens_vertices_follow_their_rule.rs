@@ -309,6 +309,8 @@ fn limits_are_those_of_many_steps() {
         }
         let table = PatchTable::new(&level);
         let surface = LimitSurface::new(&table, &mesh.points);
+        let corner = surface.eval(table.locate(FaceId(1), None, 0.0, 0.0).unwrap());
+        assert!(corner.position.distance(limit.position) < 1e-12 * mesh.size(), "{shape:?}");
         for depth in [60, 300] {
             let width = 0.5_f64.powi(depth);
             // As fast as the next mode gets smaller than the tangents, for as many steps as are taken.
@@ -544,6 +546,22 @@ fn where_tangents_are_parallel_there_is_no_normal() {
     let point = surface.eval(table.locate(FaceId(0), None, 0.0, 0.0).unwrap());
     assert!(point.flags.contains(Flags::NORMAL_UNDEFINED) && point.normal == Vec3::ZERO);
     assert!(point.position.is_finite() && point.du.is_finite() && point.dv.is_finite());
+    // Only the neighbours coincide: the surface has normals all around, and none at the vertex.
+    let mut pinched = net(sample_net(), SHAPES[0]);
+    pinched.points[3] = pinched.points[1];
+    let level = Level::new(&pinched).unwrap();
+    assert_eq!(limit_vertices(&level, &pinched.points)[0].normal, None);
+    let table = PatchTable::new(&level);
+    let surface = LimitSurface::new(&table, &pinched.points);
+    for face in [0, 1] {
+        let at = |u: f64, v: f64| surface.eval(table.locate(FaceId(face), None, u, v).unwrap());
+        assert!(at(0.0, 0.0).flags.contains(Flags::NORMAL_UNDEFINED) && at(0.0, 0.0).normal == Vec3::ZERO);
+        // What there is of tangents is given as it is.
+        let across = (pinched.points[2] - pinched.points[4]) / 4.0;
+        let across = if face == 0 { across } else { -across };
+        assert!(at(0.0, 0.0).du == Vec3::ZERO && at(0.0, 0.0).dv.distance(across) < 1e-13 * pinched.size());
+        assert!(!at(1e-3, 1e-3).flags.contains(Flags::NORMAL_UNDEFINED));
+    }
 }
 
 #[test]

@@ -204,7 +204,7 @@ fn what_cannot_be_done_is_refused() {
     assert_eq!(code(&single_lens(4), &[1]), ["not_a_lens"; 4]);
     assert_eq!(code(&single_lens(4), &[400]), ["not_a_lens"; 4]);
     assert_eq!(code(&single_lens(2), &[0]), ["blocked"; 4]);
-    assert_eq!(code(&single_lens(4), &[0, 0]), ["shared_vertex"; 4]);
+    assert_eq!(code(&single_lens(4), &[0, 0]), ["named_twice"; 4]);
     let mut sharp = single_lens(4);
     sharp.creases = vec![Crease { vertices: [2, 6], sharpness: Sharpness::Infinite }];
     assert_eq!(code(&sharp, &[0]), ["blocked"; 4]);

@@ -59,19 +59,12 @@ impl Obstacle {
     }
 
     /// How many refinements move it out of the way: each doubles the layer of a vertex, and layers 1 and 2 have to be free. `None` if
-    /// it stays in the way for ever, as a sharp edge does that begins at the lens itself.
+    /// it stays where it is, as a sharp edge does that begins at the lens itself, and a hidden face that touches it.
     pub fn refinements(self) -> Option<u32> {
         match (self, self.layer()) {
-            (Obstacle::NotAQuad { .. } | Obstacle::Meeting { .. } | Obstacle::HiddenFace { .. }, layer) => {
-                match layer {
-                    // After one step what it leaves behind begins at the lens, or one layer out, or beyond.
-                    1 if matches!(self, Obstacle::NotAQuad { .. }) => Some(3),
-                    1 => None,
-                    2 => Some(2),
-                    _ => Some(1),
-                }
-            }
-            (_, 0) => None,
+            // What a polygon leaves behind is a vertex in layer 1.
+            (Obstacle::NotAQuad { .. }, 1) => Some(3),
+            (Obstacle::HiddenFace { .. }, 1) | (_, 0) => None,
             (_, 1) => Some(2),
             _ => Some(1),
         }
@@ -94,8 +87,8 @@ pub enum LensError {
     NotALens { vertex: VertexId },
     #[error("the neighbourhood of vertex {vertex} is not regular: {obstacle}")]
     Blocked { vertex: VertexId, obstacle: Obstacle },
-    #[error("the lenses at {first} and {second} share vertex {vertex}; refine the cage once first")]
-    SharedVertex { first: VertexId, second: VertexId, vertex: VertexId },
+    #[error("the lens at vertex {vertex} is named twice; name it once")]
+    NamedTwice { vertex: VertexId },
     #[error(
         "what is replaced around vertices {first} and {second} shares face {face}; refine the cage once first"
     )]
@@ -116,7 +109,7 @@ impl LensError {
             LensError::AdjacentLensVertices { .. } => "adjacent_lens_vertices",
             LensError::NotALens { .. } => "not_a_lens",
             LensError::Blocked { .. } => "blocked",
-            LensError::SharedVertex { .. } => "shared_vertex",
+            LensError::NamedTwice { .. } => "named_twice",
             LensError::Overlap { .. } => "overlap",
             LensError::NoPartner { .. } => "no_partner",
             LensError::Polar(error) => error.code(),

@@ -171,3 +171,39 @@ impl PolarNet {
         PolarNet { pole: (1.0 - alpha) * pole + alpha / sectors as f64 * sum, circles: out }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a step makes of a wave around the pole, as a multiple of it.
+    fn factor(sectors: usize, wave: f64, rule: RadialRule) -> f64 {
+        let circle = |i: usize| Vec3::new((wave * TAU * i as f64 / sectors as f64).cos(), 0.0, 0.0);
+        let net = PolarNet { pole: Vec3::ZERO, circles: vec![(0..sectors).map(circle).collect()] };
+        net.step(rule).circles[0][0].x
+    }
+
+    #[test]
+    fn fewer_than_six_sectors_have_no_rule_of_their_own() {
+        for rule in [RadialRule::Half, RadialRule::FiveEighths] {
+            assert!(
+                (factor(3, 0.0, rule) - rule.beta() - 0.125).abs() < 1e-15,
+                "weights sum to more than one"
+            );
+            assert!((factor(4, 1.0, rule) - 0.5625).abs() < 1e-15, "tangents do not halve");
+            assert!((factor(5, 2.0, rule) - 0.3125).abs() < 1e-15, "curvature grows");
+            for sectors in [6, 9] {
+                assert!((factor(sectors, 0.0, rule) - rule.beta()).abs() < 1e-15);
+                assert!((factor(sectors, 1.0, rule) - 0.5).abs() < 1e-15);
+                assert!((factor(sectors, 2.0, rule) - 0.25).abs() < 1e-15);
+            }
+        }
+    }
+
+    #[test]
+    fn no_weight_of_five_eighths_is_negative() {
+        for sectors in 6..=40 {
+            assert!(RadialRule::FiveEighths.ring(sectors).into_iter().all(|weight| weight > -1e-16));
+        }
+    }
+}

@@ -15,12 +15,8 @@ pub fn pair_pole(slit: &[Vec3], circle: &[Vec3]) -> Result<Vec3, PolarError> {
     if edges < 2 || points != 2 * edges {
         return Err(PolarDefect::Slit { edges, points }.into());
     }
-    // Across the slit at x: the points of the circle on both sides, and the slit's own.
-    let across = |x: usize| (circle[x] + circle[(points - x) % points], slit[x]);
-    let cubic = |x: usize| {
-        let (sides, own) = across(x);
-        (sides + 4.0 * own) / 6.0
-    };
+    // The cubic across the slit at x, on the slit.
+    let cubic = |x: usize| (circle[x] + 4.0 * slit[x] + circle[(points - x) % points]) / 6.0;
     let middle = edges / 2;
     Ok(if edges.is_multiple_of(2) {
         (cubic(middle - 1) + 4.0 * cubic(middle) + cubic(middle + 1)) / 6.0

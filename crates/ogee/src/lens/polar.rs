@@ -8,7 +8,7 @@
 use super::polar_energy::{PolarOperator, patch_energy};
 use super::polar_error::{PolarDefect, PolarError};
 use super::polar_sector::{PolarVariant, SectorData, UnitLoop, around};
-use crate::math::{SurfaceJet, Vec3};
+use crate::math::{Grid, SurfaceJet, Vec3};
 use crate::nurbs::{KnotVector, NurbsSurface};
 
 /// The largest area that the tangents at the pole may span and count as parallel, relative to the square of the circles' size.
@@ -34,7 +34,7 @@ impl PolarCap {
     /// of the first two have valence 4.
     ///
     /// The pole is any point: the limit point of a fan ([`super::PolarNet::limit`]), the middle of a slit
-    /// ([`super::pair_pole`]).
+    /// ([`pair_pole`](fn@super::pair_pole)).
     ///
     /// ```
     /// use ogee::Vec3;
@@ -134,8 +134,8 @@ impl PolarCap {
         &self.patches[sector]
     }
 
-    /// Position, tangents, and second derivatives at the pole, in the chart `X = r E` where `E` is the periodic cubic with the control points
-    /// `(cos 2 pi i / n, sin 2 pi i / n)` around: `du` and `dv` are `t1` and `t2`, `duu`, `duv`, `dvv` are `2 h11`, `h12`, `2
+    /// Position, tangents, and second derivatives at the pole, in the chart `X = r E` where `E` is the periodic cubic with the
+    /// control points `(cos 2 pi i / n, sin 2 pi i / n)` around: `du` and `dv` are `t1` and `t2`, `duu`, `duv`, `dvv` are `2 h11`, `h12`, `2
     /// h22`. Normal and curvature of the surface at the pole are those of the jet; of 55 the curvature is that of the quadratic
     /// which it comes near.
     pub fn pole(&self) -> SurfaceJet {
@@ -144,8 +144,8 @@ impl PolarCap {
     }
 
     /// Position and derivatives: `u` is the radius in `[0, 2]` and `v` goes from 0 to 1 around the sector, so that `du x dv` is the
-    /// side on which circles are counter-clockwise. At radius 0 `dv` and `dvv` vanish: see [`PolarCap::pole`]. On radius 1 the values of the
-    /// outer patch, which are those of the inner one.
+    /// side on which circles are counter-clockwise. At radius 0 `dv` and `dvv` vanish: see [`PolarCap::pole`]. On radius 1 the
+    /// values of the outer patch, which are those of the inner one.
     ///
     /// # Panics
     /// If there is no such sector.
@@ -166,11 +166,47 @@ impl PolarCap {
 }
 
 /// A Bezier patch over an interval of radii and a unit around.
-fn bezier(net: crate::math::Grid<Vec3>, [from, to]: [f64; 2]) -> NurbsSurface {
+fn bezier(net: Grid<Vec3>, [from, to]: [f64; 2]) -> NurbsSurface {
     let (p, q) = (net.rows(), net.cols());
     NurbsSurface {
         u: KnotVector::from_multiplicities(p - 1, [(from, p), (to, p)]),
         v: KnotVector::from_multiplicities(q - 1, [(0.0, q), (1.0, q)]),
         net,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_other_cap_has_more_energy() {
+        for (sectors, variant) in [3, 5, 8].into_iter().flat_map(|n| PolarVariant::ALL.map(|v| (n, v))) {
+            let circles = [1.0, 2.0, 3.0].map(|radius: f64| {
+                let point = |i: usize| {
+                    let (sine, cosine) = (std::f64::consts::TAU * i as f64 / sectors as f64).sin_cos();
+                    let shake = ((i * i + 3) % 7) as f64 / 10.0;
+                    radius * Vec3::new(cosine - 0.3 * shake, sine, shake)
+                };
+                (0..sectors).map(point).collect::<Vec<_>>()
+            });
+            let operator = PolarOperator::new(sectors, variant).unwrap();
+            let unknowns = operator.unknowns(circles.each_ref().map(Vec::as_slice));
+            let energy =
+                |unknowns: &[Vec3]| PolarCap::from_unknowns(variant, unknowns, &circles, Vec3::ZERO).energy();
+            let least = energy(&unknowns);
+            for k in 0..unknowns.len() {
+                for axis in [Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0), Vec3::new(0.0, 0.0, 1.0)] {
+                    let [less, more] = [-1e-3, 1e-3].map(|by| {
+                        let mut other = unknowns.clone();
+                        other[k] += by * axis;
+                        energy(&other) - least
+                    });
+                    assert!(less > 0.0 && more > 0.0, "{}, n = {sectors}, unknown {k}", variant.name());
+                    // At the bottom of a parabola both sides rise alike.
+                    assert!((less - more).abs() < 1e-6 * (less + more), "{less} {more}");
+                }
+            }
+        }
     }
 }

@@ -118,8 +118,8 @@ fn weighted<'a, T: Interpolate + 'a>(terms: impl IntoIterator<Item = (f64, &'a T
 /// Re-meshes some lenses of a cage. Vertices and faces that stay keep their order.
 ///
 /// # Errors
-/// If the cage has defects, a vertex is no lens, layers 1 and 2 of one are not regular and smooth, or two lenses share a
-/// vertex of layers 0 and 1.
+/// If the cage has defects, a vertex is no lens, layers 1 and 2 of one are not regular and smooth, as where lenses are too near
+/// to each other, or a lens is named twice.
 ///
 /// ```
 /// use ogee::lens::{detect, remesh, Remesh};
@@ -147,7 +147,7 @@ pub fn remesh(mesh: &ControlMesh, lenses: &[VertexId], how: Remesh) -> Result<Re
     let level = Level::new(mesh).map_err(LensError::Mesh)?;
     let nets: Vec<LensNet> =
         lenses.iter().map(|&vertex| regular_net(&level, vertex)).collect::<Result<_, _>>()?;
-    require_apart(&nets, mesh.points.len())?;
+    require_distinct(lenses)?;
 
     let mut points = mesh.points.clone();
     for net in &nets {
@@ -196,17 +196,15 @@ pub fn remesh(mesh: &ControlMesh, lenses: &[VertexId], how: Remesh) -> Result<Re
     Ok(Remeshed { mesh, vertices, faces: connectivity.map })
 }
 
-/// No two lenses may share a vertex of layers 0 and 1.
-fn require_apart(nets: &[LensNet], count: usize) -> Result<(), LensError> {
-    let mut owner: Vec<Option<VertexId>> = vec![None; count];
-    for net in nets {
-        for &vertex in &net.vertices[..5] {
-            if let Some(first) = owner[vertex.index()].replace(net.centre()) {
-                return Err(LensError::SharedVertex { first, second: net.centre(), vertex });
-            }
-        }
+/// Each lens may be named once. That two regular ones share no vertex of layers 0 and 1 needs no check: one would lie in layer 2 of
+/// the other.
+fn require_distinct(lenses: &[VertexId]) -> Result<(), LensError> {
+    let mut sorted = lenses.to_vec();
+    sorted.sort_unstable();
+    match sorted.windows(2).find(|pair| pair[0] == pair[1]) {
+        Some(pair) => Err(LensError::NamedTwice { vertex: pair[0] }),
+        None => Ok(()),
     }
-    Ok(())
 }
 
 fn renumber_vertices(nets: &[LensNet], how: Remesh, count: usize) -> Vec<Option<VertexId>> {

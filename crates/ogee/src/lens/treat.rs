@@ -191,7 +191,7 @@ pub(crate) fn treat_following(
         let found = detect(&level)?;
         if options.method == Method::C1 {
             treatment.leave_lenses(&found);
-            treatment.leave_poles(&found, |_| "nothing was asked for".to_owned());
+            treatment.leave_poles(&found, |_| "asked for".to_owned());
             break level;
         }
         let choices = treatment.choices(&level, &found)?;
@@ -199,7 +199,9 @@ pub(crate) fn treat_following(
             continue;
         }
         if treatment.work.steps == 0 {
+            let is_for_poles = treatment.caps_poles();
             treatment.leave_poles(&found, |pole| match &pole.neighbourhood {
+                _ if !is_for_poles => format!("{} is for lenses alone", options.method.name()),
                 Ok(_) => "no tangent plane at the pole, or another cap is in the way".to_owned(),
                 Err(obstacle) => obstacle.to_string(),
             });
@@ -243,14 +245,13 @@ struct Treatment<'a> {
 impl Treatment<'_> {
     fn choices<'a>(&self, level: &Level, found: &'a Detection) -> Result<Vec<Choice<'a>>, LensError> {
         let guarded = self.guarded(level);
-        let mut taken: Vec<Option<VertexId>> = vec![None; level.topology().vertex_count()];
         let mut choices = Vec::with_capacity(found.lenses.len());
         for lens in &found.lenses {
             let mut choice = self.choice(level, found, lens)?;
-            if let Plan::Remesh(net, _) = choice.plan {
-                if let Some(error) = in_the_way(lens, net, &guarded, &mut taken) {
-                    choice.plan = Plan::Wait(error);
-                }
+            if let Plan::Remesh(net, _) = choice.plan
+                && let Some(error) = in_the_way(lens, net, &guarded)
+            {
+                choice.plan = Plan::Wait(error);
             }
             choices.push(choice);
         }
@@ -371,7 +372,8 @@ impl Treatment<'_> {
                 _ => {}
             }
         }
-        let has_poles = self.work.steps == 0 && matches!(self.options.method, Method::Auto | Method::Polar);
+        // One refinement later a fan of triangles is none.
+        let has_poles = self.work.steps == 0 && self.caps_poles();
         for pole in found.poles.iter().filter(|_| has_poles) {
             let Ok(circles) = &pole.neighbourhood else { continue };
             let net = PolarNet {
@@ -399,6 +401,10 @@ impl Treatment<'_> {
         self.work.cut(&site.inside, &site.support, site.caps);
         self.covered.extend(site.covered);
         Ok(true)
+    }
+
+    fn caps_poles(&self) -> bool {
+        matches!(self.options.method, Method::Auto | Method::Polar)
     }
 
     fn polar(
@@ -487,7 +493,6 @@ impl Treatment<'_> {
                 };
                 faded || obstacle.refinements().is_some_and(|steps| steps <= left)
             }
-            LensError::SharedVertex { .. } | LensError::Overlap { .. } => left > 0,
             _ => false,
         }
     }
@@ -501,24 +506,11 @@ impl Treatment<'_> {
     }
 }
 
-/// What keeps a lens from being re-meshed beside others, and beside caps.
-fn in_the_way(
-    lens: &Lens,
-    net: &LensNet,
-    guarded: &[bool],
-    taken: &mut [Option<VertexId>],
-) -> Option<LensError> {
-    let changed = &net.vertices[..5];
-    if let Some(&vertex) = changed.iter().find(|v| guarded[v.index()]) {
-        // A cap hangs on it.
-        let obstacle = Obstacle::Boundary { vertex, layer: 2 };
-        return Some(LensError::Blocked { vertex: lens.vertex, obstacle });
-    }
-    if let Some((first, vertex)) = changed.iter().find_map(|&v| taken[v.index()].map(|first| (first, v))) {
-        return Some(LensError::SharedVertex { first, second: lens.vertex, vertex });
-    }
-    changed.iter().for_each(|v| taken[v.index()] = Some(lens.vertex));
-    None
+/// What keeps a lens from being re-meshed: a cap hangs on a vertex that would move. Two lenses with regular nets have none of
+/// these vertices in common.
+fn in_the_way(lens: &Lens, net: &LensNet, guarded: &[bool]) -> Option<LensError> {
+    let vertex = net.vertices[..5].iter().copied().find(|v| guarded[v.index()])?;
+    Some(LensError::Blocked { vertex: lens.vertex, obstacle: Obstacle::Boundary { vertex, layer: 2 } })
 }
 
 /// Where caps come to stand.

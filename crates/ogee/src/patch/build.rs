@@ -8,7 +8,8 @@
 use std::collections::HashMap;
 use std::sync::OnceLock;
 
-use super::chain::{ChainBasis, Kind};
+use super::chain::ChainBasis;
+use super::kind::Kind;
 use super::points::{Below, Points};
 use super::surroundings::{CornerKind, Mirrored, Surroundings};
 use super::table::{PatchTable, Sources};

@@ -19,146 +19,17 @@
 use std::f64::consts::{PI, TAU};
 
 use super::dart::Dart;
+use super::kind::Kind;
 use super::lens::Lens;
 use super::surroundings::{Mirrored, Surroundings};
-use super::{masks, smooth};
+use super::{masks, meeting, smooth};
 use crate::curve_network::rule::Slice;
 use crate::math::Vec3;
 use crate::math::simd::{self, Four};
-use crate::mesh::{
-    Boundary, Creasing, EdgeId, FaceId, FaceList, HalfedgeId, LensShape, Scheme, Topology, VertexId,
-};
+use crate::mesh::{Boundary, Creasing, EdgeId, FaceId, FaceList, HalfedgeId, Scheme, Topology, VertexId};
 use crate::rules::masks as rules;
 use crate::rules::{Level, SharpEdge, Sparse};
 use crate::stencil::{Row, join};
-
-/// What repeats itself around an irregular corner, seen from one of its quads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Kind {
-    /// A smooth interior vertex of three faces and more.
-    Smooth { valence: u32 },
-    /// An interior vertex of valence 2, and the bits of the shape of its rule; `crease` is the edge of a crease that ends
-    /// there, counted from the quad's own first.
-    Lens { crease: Option<u32>, beta: u64, gamma: u64 },
-    /// An interior vertex that stays, no sharp edge at it.
-    Cone { valence: u32 },
-    /// A vertex where curves meet at so many ports, the first of them along the quad's own first edge or the second; the bits
-    /// of the parameter.
-    Meeting { ports: u32, port_first: bool, t: u64 },
-    /// An interior vertex of three faces and more where one crease ends; `crease` is its edge, counted from the quad's own first.
-    Dart { valence: u32, crease: u32 },
-    /// A sector beside a crease or boundary.
-    Crease { faces: u32, position: u32 },
-    /// A sector at a vertex that stays.
-    Corner { faces: u32, position: u32 },
-}
-
-impl Kind {
-    /// An interior vertex of valence 2.
-    pub(crate) fn lens(LensShape { beta, gamma }: LensShape, crease: Option<u32>) -> Kind {
-        Kind::Lens { crease, beta: beta.to_bits(), gamma: gamma.to_bits() }
-    }
-
-    /// The shape of a lens; the usual one elsewhere, where it has no say.
-    fn lens_shape(self) -> LensShape {
-        match self {
-            Kind::Lens { beta, gamma, .. } => {
-                LensShape { beta: f64::from_bits(beta), gamma: f64::from_bits(gamma) }
-            }
-            _ => LensShape::default(),
-        }
-    }
-
-    /// The edge of the crease that ends at the corner, counted from the quad's own first.
-    fn ending_crease(self) -> Option<u32> {
-        match self {
-            Kind::Dart { crease, .. } => Some(crease),
-            Kind::Lens { crease, .. } => crease,
-            Kind::Smooth { .. }
-            | Kind::Cone { .. }
-            | Kind::Meeting { .. }
-            | Kind::Crease { .. }
-            | Kind::Corner { .. } => None,
-        }
-    }
-
-    /// Faces all the way round.
-    pub(crate) fn is_closed(self) -> bool {
-        !matches!(self, Kind::Crease { .. } | Kind::Corner { .. })
-    }
-
-    /// Number of faces around the corner.
-    pub(crate) fn faces(self) -> u32 {
-        match self {
-            Kind::Smooth { valence } | Kind::Cone { valence } | Kind::Dart { valence, .. } => valence,
-            Kind::Lens { .. } => 2,
-            Kind::Meeting { ports, .. } => 2 * ports,
-            Kind::Crease { faces, .. } | Kind::Corner { faces, .. } => faces,
-        }
-    }
-
-    fn position(self) -> u32 {
-        match self {
-            Kind::Smooth { .. }
-            | Kind::Lens { .. }
-            | Kind::Cone { .. }
-            | Kind::Meeting { .. }
-            | Kind::Dart { .. } => 0,
-            Kind::Crease { position, .. } | Kind::Corner { position, .. } => position,
-        }
-    }
-
-    /// False if the quad's first edge at the corner is sharp.
-    pub(crate) fn continues_below(self) -> bool {
-        match self {
-            Kind::Smooth { .. } | Kind::Cone { .. } | Kind::Meeting { .. } => true,
-            Kind::Lens { crease, .. } => crease != Some(0),
-            Kind::Dart { crease, .. } => crease != 0,
-            Kind::Crease { position, .. } | Kind::Corner { position, .. } => position > 0,
-        }
-    }
-
-    /// False if the quad's other edge at the corner is sharp.
-    pub(crate) fn continues_left(self) -> bool {
-        match self {
-            Kind::Smooth { .. } | Kind::Cone { .. } | Kind::Meeting { .. } => true,
-            Kind::Lens { crease, .. } => crease != Some(1),
-            Kind::Dart { crease, .. } => crease != 1,
-            Kind::Crease { faces, position } | Kind::Corner { faces, position } => position + 1 < faces,
-        }
-    }
-
-    /// Number of points around the corner, itself included, that decide its limit.
-    pub(crate) fn inner_count(self) -> usize {
-        2 * self.faces() as usize + if self.is_closed() { 1 } else { 2 }
-    }
-
-    /// Number of points of the ring.
-    pub(crate) fn ring_count(self) -> usize {
-        self.inner_count() + 5 + usize::from(self.continues_below()) + usize::from(self.continues_left())
-    }
-
-    /// Where curves meet, the two tangents of each quad, counter-clockwise from the quad that is looked from; none elsewhere.
-    /// `ring` has the points around the vertex, relative to it.
-    pub(crate) fn meeting_tangents(self, ring: &[Vec3]) -> impl Iterator<Item = [Vec3; 2]> + '_ {
-        let (ports, port_first, t) = match self {
-            Kind::Meeting { ports, port_first, t } => (ports as usize, port_first, f64::from_bits(t)),
-            _ => (0, false, 0.0),
-        };
-        // Quads take turns: port first, free spoke first.
-        let weights = [port_first, !port_first].map(|port_first| match ports {
-            0 => [Vec::new(), Vec::new()],
-            _ => meeting_tangents(ports, port_first, t),
-        });
-        (0..2 * ports).map(move |k| {
-            [0, 1].map(|which| {
-                let around = ring.iter().cycle().skip(2 * k);
-                let terms = weights[k % 2][which][1..].iter().zip(around);
-                terms.fold(Vec3::ZERO, |sum, (&weight, &p)| sum + weight * p)
-            })
-        })
-    }
-}
 
 /// A point with a fourth coordinate of zero: what lanes of four like.
 pub(crate) type Wide = [f64; 4];
@@ -442,50 +313,10 @@ fn tangent_weights(kind: Kind) -> Option<[Vec<f64>; 2]> {
         }
         Kind::Dart { valence, crease } => Dart::new(valence as usize).seen_from(crease as usize).1,
         Kind::Meeting { ports, port_first, t } => {
-            Some(meeting_tangents(ports as usize, port_first, f64::from_bits(t)))
+            Some(meeting::tangents(ports as usize, port_first, f64::from_bits(t)))
         }
         _ => None,
     }
-}
-
-/// The tangent of the curve that arrives along one of the quad's edges, and where the free spoke along the other leads in
-/// the end: of the eigenvectors to 1/2 of `docs/methods/curve_network.md`.
-fn meeting_tangents(ports: usize, port_first: bool, t: f64) -> [Vec<f64>; 2] {
-    let count = 1 + 4 * ports;
-    let ring = |k: usize| 1 + k % (4 * ports);
-    // Neighbours of the vertex are numbered from the quad's first edge; ports are every second one.
-    let first = usize::from(!port_first);
-    let tangent = |port: usize, share: f64, out: &mut Vec<f64>| {
-        let at = 2 * (2 * port + first);
-        out[0] -= share;
-        for (k, weight) in [(at, 4.0 / 6.0), (at + 1, 1.0 / 6.0), (at + 4 * ports - 1, 1.0 / 6.0)] {
-            out[ring(k)] += share * weight;
-        }
-    };
-    let mut own = vec![0.0; count];
-    tangent(0, 1.0, &mut own);
-    // The free spoke after port 0, or the one before it.
-    let mut free = vec![0.0; count];
-    for port in 0..ports {
-        let step = if port_first { port } else { ports - port };
-        let share: f64 = (0..ports)
-            .map(|w| {
-                let angle = TAU * w as f64 / ports as f64;
-                let sums = (angle * step as f64).cos() + (angle * (1.0 - step as f64)).cos();
-                let under = 1.0 - t + t * angle.cos();
-                // Two ports at t = 1/2: what has no place in the tangents is an eigenvector of its own, below.
-                if under.abs() < 1e-9 { 0.0 } else { sums / (2.0 * under) }
-            })
-            .sum();
-        tangent(port, share / ports as f64, &mut free);
-    }
-    if ports == 2 && (t - 0.5).abs() < 1e-9 {
-        let spoke = 2 * usize::from(port_first);
-        for (k, weight) in [(0, 4.0), (1, 1.0), (7, 1.0), (3, -1.0), (4, -4.0), (5, -1.0)] {
-            free[ring(spoke + k)] += weight / 12.0;
-        }
-    }
-    if port_first { [own, free] } else { [free, own] }
 }
 
 /// The weights of a tangent mask of a sector of few faces, one point at a time: the mask is linear.
@@ -675,6 +506,7 @@ impl simd::Kernel for Step<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::LensShape;
 
     /// Limits and eigenvalues in closed form are those of the rows that refinement gave.
     #[test]

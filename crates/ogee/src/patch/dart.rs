@@ -159,7 +159,8 @@ fn symmetric(valence: usize, value: f64, bend: f64, wave: impl Fn(usize) -> f64)
 
 #[cfg(test)]
 mod tests {
-    use super::super::chain::{ChainBasis, Kind};
+    use super::super::chain::ChainBasis;
+    use super::super::kind::Kind;
     use super::*;
 
     const VALENCES: [u32; 13] = [3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 20, 50, 200];

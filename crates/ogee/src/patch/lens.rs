@@ -120,7 +120,8 @@ fn even(LensShape { beta, gamma }: LensShape, value: f64) -> LensMask {
 
 #[cfg(test)]
 mod tests {
-    use super::super::chain::{ChainBasis, Kind};
+    use super::super::chain::ChainBasis;
+    use super::super::kind::Kind;
     use super::*;
 
     const SHAPES: [[f64; 2]; 8] = [

@@ -3,9 +3,11 @@
 mod build;
 mod chain;
 pub(crate) mod dart;
+mod kind;
 pub(crate) mod lens;
 mod location;
 pub(crate) mod masks;
+mod meeting;
 mod neighbourhood;
 mod plain;
 mod points;
@@ -16,7 +18,8 @@ mod table;
 mod tree;
 mod users;
 
-pub(crate) use chain::{ChainBasis, Kind, Wide};
+pub(crate) use chain::{ChainBasis, Wide};
+pub(crate) use kind::Kind;
 pub use location::{Location, LocationError, ParametricFace};
 pub(crate) use neighbourhood::{Neighbourhood, with_ring};
 pub use table::{PatchStatistics, PatchTable};

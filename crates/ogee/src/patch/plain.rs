@@ -114,7 +114,7 @@ impl PlainTail {
 
 #[cfg(test)]
 mod tests {
-    use super::super::chain::Kind;
+    use super::super::kind::Kind;
     use super::super::surroundings::{CornerKind, Mirrored, Surroundings};
     use super::*;
     use crate::mesh::{FaceId, shapes};

@@ -7,7 +7,7 @@
 //! way (`build.rs`), which would give the same table.
 
 use super::build::{Builder, Slot, Target, face_of, tagged_vertices, touches};
-use super::chain::Kind;
+use super::kind::Kind;
 use super::plain::{Plain, PlainTail};
 use super::points::Points;
 use super::table::{NO_LEAF, Sources};

@@ -2,7 +2,7 @@
 //!
 //! This is the general case, with tags, boundaries and polygons; [`super::plain`] is the common one.
 
-use super::chain::Kind;
+use super::kind::Kind;
 use crate::curve_network::rule::Slice;
 use crate::mesh::HalfedgeId;
 use crate::rules::Level;

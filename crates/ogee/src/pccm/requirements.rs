@@ -11,9 +11,9 @@ pub const SHARPEST: f64 = 6.0;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PccmError {
-    /// The smooth rule has no tangent plane at valence 2.
+    /// There is no patch for the rule at valence 2.
     #[error(
-        "vertex {vertex} has valence 2, where the surface has no tangent plane; dissolve it (join its two edges) first"
+        "vertex {vertex} has valence 2, for which there is no patch; treat it first (--lens merge, lens::treat)"
     )]
     Lens {
         /// The vertex.

@@ -1,6 +1,6 @@
 //! Exact arithmetic with fractions, modulo primes of 61 bits: an identity of integers that holds modulo primes whose product
 //! exceeds both sides is true.
-#![allow(unreachable_pub, reason = "helpers of claims")]
+#![allow(unreachable_pub, reason = "shared by claims")]
 
 /// The integers modulo a prime.
 #[derive(Clone, Copy, Debug)]
