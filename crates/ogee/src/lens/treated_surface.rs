@@ -16,8 +16,8 @@ use std::collections::HashMap;
 /// lies on it is a single point; and in the triangles of a fan, where radius and direction follow from barycentric coordinates,
 /// derivatives of second order grow as one over the distance from the pole.
 ///
-/// At a lens and at a pole points are flagged [`AT_EXTRAORDINARY`](crate::Flags::AT_EXTRAORDINARY): `du` and `dv` span the tangent plane and are no
-/// derivatives. There is a curvature: [`TreatedSurface::curvature`] has it.
+/// At a lens and at a pole points are flagged [`AT_EXTRAORDINARY`](crate::Flags::AT_EXTRAORDINARY): `du` and `dv` span the
+/// tangent plane and are no derivatives. There is a curvature: [`TreatedSurface::curvature`] has it.
 ///
 /// ```
 /// use ogee::lens::{Method, Options, TreatedSurface, treat};
