@@ -5,8 +5,9 @@
 use std::io::Write;
 use std::time::Instant;
 
+use ogee::lens::TreatedSurface;
 use ogee::{
-    Derivatives, FaceId, Flags, LimitSurface, Location, LocationError, Place, Samples, SurfaceJet, Vec3,
+    Derivatives, Evaluator, FaceId, Flags, Location, LocationError, Place, Samples, SurfaceJet, Vec3,
 };
 use ogee_formats::samples::{Address, Sample, SampleFormat, write_header, write_sample};
 use rayon::prelude::*;
@@ -35,6 +36,19 @@ pub(crate) struct Special {
     pub(crate) curvature_unbounded: u64,
 }
 
+/// What an evaluation counts.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Figures {
+    /// How many samples there have been.
+    pub(crate) samples: u64,
+    /// And how many of them are special.
+    pub(crate) special: Special,
+    /// Seconds spent on addresses.
+    pub(crate) read: f64,
+    /// Seconds spent on the surface.
+    pub(crate) evaluate: f64,
+}
+
 /// What is wrong with the points: the first findings, and how many more there are.
 #[derive(Default)]
 struct Refusal {
@@ -54,7 +68,7 @@ impl Refusal {
 
 /// Evaluates one block after the other, in the same memory.
 pub(crate) struct Evaluation<'a> {
-    surface: &'a LimitSurface<'a>,
+    surface: &'a TreatedSurface<'a>,
     format: SampleFormat,
     what: Derivatives,
     addresses: Vec<Address>,
@@ -62,20 +76,14 @@ pub(crate) struct Evaluation<'a> {
     values: Samples,
     curvatures: Vec<Option<[f64; 2]>>,
     text: Vec<Vec<u8>>,
-    /// How many samples there have been.
-    pub(crate) samples: u64,
-    /// And how many of them are special.
-    pub(crate) special: Special,
-    /// Seconds spent on addresses.
-    pub(crate) read: f64,
-    /// Seconds spent on the surface.
-    pub(crate) evaluate: f64,
+    /// What was counted so far.
+    pub(crate) figures: Figures,
 }
 
 impl<'a> Evaluation<'a> {
     /// Nothing yet.
     pub(crate) fn new(
-        surface: &'a LimitSurface<'a>,
+        surface: &'a TreatedSurface<'a>,
         format: SampleFormat,
         what: Derivatives,
     ) -> Evaluation<'a> {
@@ -88,10 +96,7 @@ impl<'a> Evaluation<'a> {
             values: Samples::default(),
             curvatures: Vec::new(),
             text: vec![Vec::new(); BLOCK / CHUNK],
-            samples: 0,
-            special: Special::default(),
-            read: 0.0,
-            evaluate: 0.0,
+            figures: Figures::default(),
         }
     }
 
@@ -110,16 +115,16 @@ impl<'a> Evaluation<'a> {
         while has_more {
             let start = Instant::now();
             has_more = self.fill(&mut source, name, &mut refusal)?;
-            self.read += start.elapsed().as_secs_f64();
+            self.figures.read += start.elapsed().as_secs_f64();
             if !refusal.findings.is_empty() {
                 continue;
             }
             let start = Instant::now();
             self.evaluate();
-            self.evaluate += start.elapsed().as_secs_f64();
+            self.figures.evaluate += start.elapsed().as_secs_f64();
             self.write(out)?;
         }
-        if refusal.findings.is_empty() && self.samples == 0 {
+        if refusal.findings.is_empty() && self.figures.samples == 0 {
             refusal.push(Finding::in_file("no_samples", "there are no points in it", name));
         }
         if refusal.findings.is_empty() {
@@ -164,16 +169,25 @@ impl<'a> Evaluation<'a> {
         let values = &self.values;
         self.curvatures.clear();
         if self.what == Derivatives::Second {
-            let points = (0..self.locations.len()).into_par_iter();
-            points.map(|i| curvatures(values, i)).collect_into_vec(&mut self.curvatures);
+            let (surface, locations) = (self.surface, &self.locations);
+            let principal = |i: usize| {
+                if surface.is_on_cap(locations[i]) {
+                    // At lenses and poles too.
+                    return surface.curvature(locations[i]).map(|curvature| [curvature.k1, curvature.k2]);
+                }
+                curvatures(values, i)
+            };
+            let points = (0..locations.len()).into_par_iter();
+            points.map(principal).collect_into_vec(&mut self.curvatures);
         }
-        self.samples += self.locations.len() as u64;
+        self.figures.samples += self.locations.len() as u64;
+        let special = &mut self.figures.special;
         for flags in &values.flags {
             let count = |flag| u64::from(flags.contains(flag));
-            self.special.at_extraordinary += count(Flags::AT_EXTRAORDINARY);
-            self.special.normals_undefined += count(Flags::NORMAL_UNDEFINED);
-            self.special.normals_one_sided += count(Flags::NORMAL_ONE_SIDED);
-            self.special.curvature_unbounded += count(Flags::UNBOUNDED_CURVATURE);
+            special.at_extraordinary += count(Flags::AT_EXTRAORDINARY);
+            special.normals_undefined += count(Flags::NORMAL_UNDEFINED);
+            special.normals_one_sided += count(Flags::NORMAL_ONE_SIDED);
+            special.curvature_unbounded += count(Flags::UNBOUNDED_CURVATURE);
         }
     }
 

@@ -14,6 +14,8 @@ pub(crate) type Drawn = (Picture, String, f64);
 pub(crate) enum Unfit {
     /// It does not know patches of parts.
     Patches,
+    /// Nor the caps of lenses and poles.
+    Caps,
     /// It is a program, and another does as well.
     Software(String),
     /// There is none, or it failed.
@@ -22,6 +24,9 @@ pub(crate) enum Unfit {
 
 /// Draws a scene; `even_software` on adapters that are programs too.
 pub(crate) fn draw(subject: &Subject, scene: &Scene, even_software: bool) -> Result<Drawn, Unfit> {
+    if subject.has_caps() {
+        return Err(Unfit::Caps);
+    }
     let start = Instant::now();
     let device = Device::new(&DeviceOptions::default()).map_err(Unfit::Device)?;
     if device.is_software() && !even_software {

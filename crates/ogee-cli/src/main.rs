@@ -15,6 +15,7 @@
 //! | `error` | failures, with their place and exit code |
 //! | `report` | figures as text and as JSON |
 //! | `progress` | a spinner for long work |
+//! | `treatment` | the surface of a cage whose lenses have been seen to |
 //! | `timestamp` | the time that is written into files |
 //! | `drawing` | curves in a picture |
 //! | `view` | options of cameras and lights |
@@ -40,6 +41,7 @@ mod report;
 mod subject;
 mod system;
 mod timestamp;
+mod treatment;
 mod view;
 
 use std::ffi::OsString;

@@ -5,8 +5,9 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 use std::time::Instant;
 
+use ogee::Vec3;
+use ogee::lens::Method;
 use ogee::quality::{LimitView, PatchView, Surface, bounding_box};
-use ogee::{Level, LimitSurface, PatchTable, Vec3};
 use ogee_formats::CageFormat;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -14,6 +15,7 @@ use serde::de::IgnoredAny;
 use crate::cage::{Cage, CageArguments};
 use crate::error::{Failure, Finding};
 use crate::report::figure;
+use crate::treatment::CageSurface;
 
 /// A surface to look at, and the file it came from.
 pub(crate) struct Subject {
@@ -27,7 +29,7 @@ pub(crate) struct Subject {
 }
 
 enum Kind {
-    Cage { cage: Box<Cage>, level: Box<Level>, table: Box<PatchTable> },
+    Cage(Box<CageSurface>),
     Patches(Box<PatchView>),
 }
 
@@ -52,15 +54,16 @@ impl Subject {
     /// Reads a cage, or a part in JSON.
     pub(crate) fn read(arguments: &CageArguments) -> Result<Subject, Failure> {
         let (name, format, bytes) = arguments.load()?;
-        Subject::parse(arguments, name, format, &bytes)
+        Subject::parse(arguments, name, format, &bytes, Method::Auto)
     }
 
-    /// The cage or the part in these bytes.
+    /// The cage or the part in these bytes; lenses of a cage are seen to by `method`.
     pub(crate) fn parse(
         arguments: &CageArguments,
         name: String,
         format: CageFormat,
         bytes: &[u8],
+        method: Method,
     ) -> Result<Subject, Failure> {
         let start = Instant::now();
         if format == CageFormat::Json && is_part(bytes) {
@@ -78,14 +81,9 @@ impl Subject {
         let cage = arguments.parse(name, format, bytes)?;
         let read_seconds = start.elapsed().as_secs_f64();
         let start = Instant::now();
-        let level = Level::new(cage.mesh()).map_err(|error| cage.refused(&error.defects))?;
-        let table = PatchTable::new(&level);
-        if !(0..table.len()).any(|face| table.is_visible(face)) {
-            return Err(cage.failure("no_surface", "no face of the cage is part of the surface"));
-        }
-        let prepare_seconds = start.elapsed().as_secs_f64();
         let name = cage.name.clone();
-        let kind = Kind::Cage { cage: Box::new(cage), level: Box::new(level), table: Box::new(table) };
+        let kind = Kind::Cage(Box::new(CageSurface::new(cage, method)?));
+        let prepare_seconds = start.elapsed().as_secs_f64();
         Ok(Subject { name, kind, read_seconds, prepare_seconds })
     }
 
@@ -100,6 +98,14 @@ impl Subject {
         Ok(())
     }
 
+    /// Refuses a treatment of lenses for a part, which has none any more.
+    pub(crate) fn check_lens(&self, method: Method) -> Result<(), Failure> {
+        if self.cage().is_none() && method != Method::Auto {
+            return Err(Failure::usage(format!("{} has patches: --lens is for cages", self.name)));
+        }
+        Ok(())
+    }
+
     /// The file's name without its folders.
     pub(crate) fn file_name(&self) -> Cow<'_, str> {
         Path::new(&self.name).file_name().map_or(Cow::Borrowed(&*self.name), |name| name.to_string_lossy())
@@ -108,7 +114,7 @@ impl Subject {
     /// The cage, if it is one.
     pub(crate) fn cage(&self) -> Option<&Cage> {
         match &self.kind {
-            Kind::Cage { cage, .. } => Some(cage),
+            Kind::Cage(surface) => Some(surface.cage()),
             Kind::Patches(_) => None,
         }
     }
@@ -116,7 +122,7 @@ impl Subject {
     /// How many faces the cage has, or how many patches there are.
     pub(crate) fn faces(&self) -> usize {
         match &self.kind {
-            Kind::Cage { cage, .. } => cage.mesh().faces.len(),
+            Kind::Cage(surface) => surface.cage().mesh().faces.len(),
             Kind::Patches(view) => view.patches().len(),
         }
     }
@@ -124,33 +130,34 @@ impl Subject {
     /// Lets somebody look at the surface.
     pub(crate) fn look<T>(&self, look: impl FnOnce(&dyn Surface) -> T) -> T {
         match &self.kind {
-            Kind::Cage { cage, level, table } => {
-                let surface = LimitSurface::new(table, &cage.mesh().points);
-                look(&LimitView::new(level, &surface))
-            }
+            Kind::Cage(cage) => cage.look(|surface| look(&LimitView::new(cage.level(), surface))),
             Kind::Patches(view) => look(view.as_ref()),
         }
+    }
+
+    /// True if caps are a part of the surface.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn has_caps(&self) -> bool {
+        matches!(&self.kind, Kind::Cage(surface) if surface.has_caps())
     }
 
     /// Lets somebody look at the limit surface, if it is one.
     #[cfg(feature = "gpu")]
     pub(crate) fn look_at_limit<T>(&self, look: impl FnOnce(&LimitView<'_>) -> T) -> Option<T> {
         match &self.kind {
-            Kind::Cage { cage, level, table } => {
-                let surface = LimitSurface::new(table, &cage.mesh().points);
-                Some(look(&LimitView::new(level, &surface)))
+            Kind::Cage(cage) if !cage.has_caps() => {
+                Some(cage.look(|surface| look(&LimitView::new(cage.level(), surface.limit()))))
             }
-            Kind::Patches(_) => None,
+            Kind::Cage(_) | Kind::Patches(_) => None,
         }
     }
 
     /// What the reader passed over, and what else is worth knowing.
     pub(crate) fn notes(&self) -> Vec<Finding> {
-        self.cage().map_or_else(Vec::new, |cage| {
-            let mut notes = cage.warnings();
-            notes.extend(ogee::mesh::notes(cage.mesh()).iter().map(Finding::of_note));
-            notes
-        })
+        match &self.kind {
+            Kind::Cage(surface) => surface.notes(),
+            Kind::Patches(_) => Vec::new(),
+        }
     }
 
     /// A refusal of what is looked at as a whole.

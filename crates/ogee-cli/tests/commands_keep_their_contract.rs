@@ -281,7 +281,6 @@ fn what_this_build_does_not_have_is_said() {
         "convert cube.usda -o a.step",
         "refine cube.obj -l 1 -o a.3mf",
         "refine cube.obj -l 1 -o a.usda",
-        "eval cube.obj --uniform 2 -o a.csv --lens c1",
         #[cfg(not(feature = "gpu"))]
         "render cube.obj -o a.png --device gpu",
         "batch plan",

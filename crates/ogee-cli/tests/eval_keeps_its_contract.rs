@@ -382,13 +382,12 @@ fn mistakes_in_typing_are_usage_errors() {
         ("eval prism.obj --uniform 0 -o out.csv", "--uniform"),
         ("eval prism.obj --uniform 100000 -o out.csv", "--uniform"),
         ("eval prism.obj --uniform 2 --derivatives 3 -o out.csv", "known are 0, 1, 2"),
+        ("eval prism.obj --uniform 2 --lens c3 -o out.csv", "known are auto, c1, c2, degree-raise, identify"),
     ] {
         let run = folder.ogee(arguments).expect(2);
         assert!(run.stderr.contains(said), "{arguments}: {}", run.stderr);
         assert_eq!(folder.names(), names);
     }
-    let run = folder.ogee("eval prism.obj --uniform 1 --lens c1 -o out.csv").expect(2);
-    assert!(run.first_line().contains("this build does not have '--lens'"), "{}", run.stderr);
 }
 
 #[test]
@@ -489,4 +488,90 @@ fn faces_that_are_hidden_have_no_samples() {
     assert_eq!(run.json()["error"]["code"], "hidden_face");
     let run = folder.ogee("eval cage.json --boundary none --uniform 2 -o out.csv --json").expect(3);
     assert_eq!(run.json()["error"]["code"], "no_surface");
+}
+
+#[test]
+fn lenses_are_left_as_they_are_unless_something_is_asked_for() {
+    let folder = Folder::with_wing();
+    let bytes = ["", "--lens auto", "--lens c1"].map(|lens| {
+        let arguments = format!("eval wing.obj --uniform 4 --derivatives 2 {lens} -o out.csv --json");
+        let report = folder.ogee(&arguments).expect(0).json();
+        assert_eq!((&report["notes"], &report["curvature_unbounded"]), (&json!([]), &json!(8)));
+        folder.read("out.csv")
+    });
+    assert!(bytes[1] == bytes[0] && bytes[2] == bytes[0]);
+}
+
+#[test]
+fn caps_are_evaluated_at_the_addresses_of_the_cage() {
+    let folder = Folder::with_wing();
+    let samples = |lens: &str, note: &str, extraordinary: u64| {
+        let arguments =
+            format!("eval wing.obj --uniform 4 --derivatives 2 --lens {lens} -o {lens}.jsonl --json");
+        let report = folder.ogee(&arguments).expect(0).json();
+        assert_eq!((&report["parametric_faces"], &report["curvature_unbounded"]), (&json!(56), &json!(0)));
+        assert_eq!(report["at_extraordinary"], extraordinary, "{lens}");
+        assert_eq!(report["notes"][0]["code"], "lenses_treated");
+        assert_eq!(report["notes"][0]["message"], note);
+        let rows = lines(&folder, &format!("{lens}.jsonl"));
+        for row in &rows {
+            // No curvature is missing anywhere, and no normal.
+            assert!(row["k1"].is_number() && row["k2"].is_number() && row["normal"].is_array(), "{row}");
+        }
+        rows
+    };
+    folder.ogee("eval wing.obj --uniform 4 --derivatives 2 -o plain.jsonl").expect(0);
+    let plain = lines(&folder, "plain.jsonl");
+    let whose = "addresses are those of the cage in the file";
+    // Each lens is a corner of two faces; of polar caps all of a slit is the pole.
+    for (lens, extraordinary) in [("c2", 8), ("degree-raise", 8), ("polar", 80)] {
+        let rows = samples(lens, &format!("lenses and poles: 4 by {lens}; {whose}"), extraordinary);
+        assert_eq!(rows.len(), plain.len());
+        let mut same = 0;
+        for (row, plain) in rows.iter().zip(&plain) {
+            for key in ["face", "corner", "u", "v"] {
+                assert_eq!(row[key], plain[key]);
+            }
+            same += usize::from(row == plain);
+        }
+        // The bands of faces in the middle have no cap.
+        assert!((24 * 25..56 * 25).contains(&same), "{lens}: {same}");
+    }
+}
+
+#[test]
+fn a_cage_that_was_meshed_anew_takes_the_place_of_the_cage() {
+    let folder = Folder::with_wing();
+    for lens in ["identify", "remove", "merge"] {
+        let arguments = format!("eval wing.obj --uniform 4 --derivatives 2 --lens {lens} -o one.csv --json");
+        let report = folder.ogee(&arguments).expect(0).json();
+        let note =
+            format!("lenses and poles: 4 by {lens}; addresses are those of the cage that ogee lens writes");
+        assert_eq!(report["notes"][0]["message"], note);
+        folder.ogee(&format!("lens wing.obj --method {lens} -o other.json")).expect(0);
+        folder.ogee("eval other.json --uniform 4 --derivatives 2 -o two.csv").expect(0);
+        assert!(folder.read("one.csv") == folder.read("two.csv"), "{lens}");
+    }
+}
+
+#[test]
+fn what_was_refined_first_is_noted_and_what_cannot_be_is_refused() {
+    let folder = with_prism();
+    let note = |arguments: &str| {
+        let report = folder.ogee(&format!("eval {arguments} --uniform 2 -o out.csv --json")).expect(0).json();
+        report["notes"][0]["message"].as_str().unwrap().to_owned()
+    };
+    let whose = "addresses are those of the cage in the file";
+    assert_eq!(note("prism.obj --lens c2"), format!("lenses and poles: none; {whose}"));
+    // Two quads in the place of one, beside a vertex of valence 3.
+    let doublet = CUBE.replace("f 5 6 8 7\n", "v 0 0 1\nf 5 6 8 9\nf 5 9 8 7\n");
+    folder.write("doublet.obj", doublet);
+    assert_eq!(
+        note("doublet.obj --lens c2"),
+        format!("lenses and poles: 1 by c2, refined 2 times first; {whose}")
+    );
+    let names = folder.names();
+    let run = folder.ogee("eval doublet.obj --lens polar --uniform 2 -o no.csv --json").expect(3);
+    assert_eq!(run.json()["error"]["code"], "no_partner");
+    assert_eq!(folder.names(), names);
 }

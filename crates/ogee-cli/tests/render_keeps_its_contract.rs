@@ -209,3 +209,35 @@ fn graphics_processors_draw_what_the_processor_draws() {
     let run = folder.ogee("render part.json --device gpu -o part.png").expect(3);
     assert!(run.stderr.contains("--device cpu"), "{}", run.stderr);
 }
+
+#[test]
+fn caps_are_drawn_where_lenses_were() {
+    let folder = Folder::with_wing();
+    // The tip, from outside.
+    let view = "--eye 3,-4,-9 --at 0.4,0,-4.6 --size 64x64 --style shaded";
+    let draw = |arguments: &str| {
+        let report = folder.ogee(&format!("render {arguments} {view} -o a.png --json")).expect(0).json();
+        assert_eq!(report["device"], "cpu");
+        (pixels(&folder.read("a.png")), report["notes"].as_array().unwrap().clone())
+    };
+    let far = |a: &[u8], b: &[u8]| a.iter().zip(b).filter(|&(a, b)| a.abs_diff(*b) > 40).count();
+    let (plain, _) = draw("wing.obj --device cpu");
+    for lens in ["c2", "polar", "merge"] {
+        let (treated, notes) = draw(&format!("wing.obj --lens {lens} --device cpu"));
+        assert!(notes.iter().any(|note| note["code"] == "lenses_treated"), "{notes:?}");
+        folder.ogee(&format!("convert wing.obj --lens {lens} -o part.json")).expect(0);
+        let (part, _) = draw("part.json --device cpu");
+        let (gap, change) = (far(&treated, &part), far(&treated, &plain));
+        assert!(gap < 60, "{lens}: {gap} colour values differ from those of the part");
+        assert!(change > 200, "{lens}: {change} colour values differ from those of the surface as it is");
+    }
+    #[cfg(feature = "gpu")]
+    {
+        let (_, notes) = draw("wing.obj --lens polar --device gpu");
+        let is_said =
+            |note: &serde_json::Value| note["message"].as_str().unwrap().contains("the caps of --lens");
+        assert!(notes.iter().any(is_said), "{notes:?}");
+    }
+    let run = folder.ogee("render part.json --lens c2 -o b.png").expect(2);
+    assert!(run.first_line().contains("--lens is for cages"), "{}", run.stderr);
+}

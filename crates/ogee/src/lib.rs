@@ -111,8 +111,8 @@ pub mod stam;
 mod stencil;
 
 pub use limit::{
-    Closest, ClosestPoints, Derivatives, FacePiece, Flags, LimitJet, LimitSurface, LimitVertex, PatchNet,
-    Pattern, Samples, SurfacePoint, TailPiece, limit_vertices,
+    Closest, ClosestPoints, Derivatives, Evaluator, FacePiece, Flags, LimitJet, LimitSurface, LimitVertex,
+    PatchNet, Pattern, Samples, SurfacePoint, TailPiece, limit_vertices,
 };
 pub use math::{Curvature, Grid, Interpolate, SurfaceJet, Vec3};
 pub use mesh::{

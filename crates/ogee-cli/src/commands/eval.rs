@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::Args;
-use ogee::{Derivatives, Level, LimitSurface, ParametricFace, PatchTable};
+use ogee::{Derivatives, ParametricFace};
 use ogee_formats::samples::SampleFormat;
 use serde::Serialize;
 
@@ -13,16 +13,18 @@ use crate::addresses::{Grid, Points, PointsFormat, Source};
 use crate::arguments::OutputArguments;
 use crate::cage::CageArguments;
 use crate::error::{Failure, Finding};
-use crate::evaluation::{Evaluation, Special};
+use crate::evaluation::{Evaluation, Figures, Special};
 use crate::names::{DERIVATIVES, Format, formats};
 use crate::output::Stopped;
 use crate::report::{Console, Table, bytes};
 use crate::system;
+use crate::treatment::{CageSurface, LensArguments};
 
 const EXAMPLES: &str = "\
 Examples:
   ogee eval cage.obj --at points.csv -o samples.csv          rows of face,corner,u,v
-  ogee eval cage.obj --uniform 8 --derivatives 2 -o all.jsonl";
+  ogee eval cage.obj --uniform 8 --derivatives 2 -o all.jsonl
+  ogee eval wing.obj --lens c2 --uniform 8 --derivatives 2 -o wing.csv  curvature at lenses too";
 
 /// Evaluate the limit surface, with derivatives, normals and curvatures
 #[derive(Debug, Args)]
@@ -32,6 +34,8 @@ pub(crate) struct Eval {
     cage: CageArguments,
     #[command(flatten)]
     output: OutputArguments,
+    #[command(flatten)]
+    lenses: LensArguments,
     /// Where to evaluate: face, corner, u and v in JSON lines or CSV; - for stdin
     #[arg(long, value_name = "POINTS", required_unless_present = "uniform", conflicts_with = "uniform")]
     at: Option<PathBuf>,
@@ -105,56 +109,57 @@ impl Eval {
 
         progress.step("preparing");
         let start = Instant::now();
-        let level = Level::new(cage.mesh()).map_err(|error| cage.refused(&error.defects))?;
-        let patches = PatchTable::new(&level);
-        let surface = LimitSurface::new(&patches, &cage.mesh().points);
+        let subject = CageSurface::new(cage, self.lenses.lens)?;
+        let patches = subject.table();
         let visible: Vec<ParametricFace> = (0..patches.len())
             .filter(|&n| patches.is_visible(n))
             .map(|n| patches.parametric_face(n))
             .collect();
-        if visible.is_empty() {
-            return Err(cage.failure("no_surface", "no face of the cage is part of the surface"));
-        }
         seconds.prepare = start.elapsed().as_secs_f64();
 
         progress.step("evaluating");
         let grid = Grid::new(&visible, self.uniform.unwrap_or(1));
-        let name = points.as_ref().map_or(&cage.name, |points| &points.name).clone();
+        let cage = &subject.cage().name;
+        let source_name = points.as_ref().map_or(cage, |points| &points.name).clone();
         let source = points.map_or(Source::Grid(grid), Source::Points);
-        let mut evaluation = Evaluation::new(&surface, format, self.derivatives);
-        let start = Instant::now();
-        // Nothing in a grid can be refused, so nothing has to wait.
-        let file_bytes = match source {
-            Source::Grid(_) => destination.write(|out| {
-                evaluation.run(source, &name, out).map_err(|stopped| match stopped {
-                    Stopped::Unwritten(error) => error,
-                    Stopped::Refused(failure) => std::io::Error::other(failure.first().line()),
-                })
-            }),
-            Source::Points(_) => destination.write_unless_refused(|out| evaluation.run(source, &name, out)),
-        }?;
-        let Evaluation { samples, special, read, evaluate, .. } = evaluation;
-        let write = start.elapsed().as_secs_f64() - read - evaluate;
-        let seconds = Seconds { read: seconds.read + read, evaluate, write, ..seconds };
+        let (file_bytes, figures, seconds) = subject.look(|surface| {
+            let start = Instant::now();
+            let mut evaluation = Evaluation::new(surface, format, self.derivatives);
+            // Nothing in a grid can be refused, so nothing has to wait.
+            let file_bytes = match source {
+                Source::Grid(_) => destination.write(|out| {
+                    evaluation.run(source, &source_name, out).map_err(|stopped| match stopped {
+                        Stopped::Unwritten(error) => error,
+                        Stopped::Refused(failure) => std::io::Error::other(failure.first().line()),
+                    })
+                }),
+                Source::Points(_) => {
+                    destination.write_unless_refused(|out| evaluation.run(source, &source_name, out))
+                }
+            }?;
+            let Figures { read, evaluate, .. } = evaluation.figures;
+            let write = start.elapsed().as_secs_f64() - read - evaluate;
+            let seconds = Seconds { read: seconds.read + read, evaluate, write, ..seconds };
+            Ok::<_, Failure>((file_bytes, evaluation.figures, seconds))
+        })?;
         drop(progress);
 
-        let mut notes = cage.warnings();
-        notes.extend(ogee::mesh::notes(cage.mesh()).iter().map(Finding::of_note));
+        let notes = subject.notes();
         let report = Report {
-            samples,
+            samples: figures.samples,
             parametric_faces: visible.len(),
             derivatives: match self.derivatives {
                 Derivatives::None => 0,
                 Derivatives::First => 1,
                 Derivatives::Second => 2,
             },
-            special,
+            special: figures.special,
             seconds,
             peak_bytes: system::peak_memory(),
             file_bytes,
             notes: &notes,
         };
-        console.table(&format!("{} -> {}", cage.name, destination.name()), &table(&report), &notes);
+        console.table(&format!("{cage} -> {}", destination.name()), &table(&report), &notes);
         console.json(&report)?;
         Ok(ExitCode::SUCCESS)
     }

@@ -21,6 +21,7 @@ use crate::error::{Failure, Finding};
 use crate::names::{Format, formats};
 use crate::report::{Console, Table, bytes};
 use crate::subject::{Subject, or_part};
+use crate::treatment::LensArguments;
 use crate::view::{LightArguments, ViewArguments};
 
 const EXAMPLES: &str = "\
@@ -29,7 +30,8 @@ Examples:
   ogee render cage.obj --style mean --size 1200x900 -o h.png mean curvature, with its scale
   ogee render cage.obj --beside part.json --style zebra -o zebra.png  the limit and the patches of a part
   ogee render boat.json --curves --style reflection -o boat.png  the curves that ogee network laid, on the lines
-  ogee render cage.obj --style error --sampling polygon:2 -o error.png";
+  ogee render cage.obj --style error --sampling polygon:2 -o error.png
+  ogee render wing.obj --lens c2 --style mean -o wing.png    with caps at lenses";
 
 /// Draw the surface: shaded, mirrored lines, bands, curvature
 #[derive(Debug, Args)]
@@ -45,6 +47,8 @@ pub(crate) struct Render {
     /// A second cage or part, drawn beside the first with the same camera, light and scale of colours
     #[arg(long, value_name = "CAGE|PART.json")]
     beside: Option<PathBuf>,
+    #[command(flatten)]
+    lenses: LensArguments,
     /// What to show
     #[arg(long, value_name = "STYLE", default_value = "shaded", value_parser = formats::<Look>())]
     style: Look,
@@ -217,6 +221,7 @@ impl Render {
         let (subject, curves) = self.read(&self.cage)?;
         let curves = curves.transpose()?;
         subject.check_rules(&self.cage)?;
+        subject.check_lens(self.lenses.lens)?;
         destination.check()?;
         let other = match &self.beside {
             Some(file) => Some(self.read(&self.cage.for_file(file))?),
@@ -283,7 +288,7 @@ impl Render {
     /// A cage or a part, and the curves in the same file if they are asked for.
     fn read(&self, file: &CageArguments) -> Result<(Subject, Option<Result<Curves, Failure>>), Failure> {
         let (name, format, bytes) = file.load()?;
-        let subject = Subject::parse(file, name, format, &bytes)?;
+        let subject = Subject::parse(file, name, format, &bytes, self.lenses.lens)?;
         let curves = self.curves.then(|| Curves::read(&subject, format, &bytes));
         Ok((subject, curves))
     }
@@ -331,6 +336,9 @@ impl Render {
             }
             Err(unfit) => {
                 let why = match unfit {
+                    Unfit::Caps => {
+                        "drawn on the CPU: no graphics adapter knows the caps of --lens".to_owned()
+                    }
                     Unfit::Patches => "patches of a part are drawn on the CPU".to_owned(),
                     Unfit::Software(name) => {
                         format!("drawn on the CPU: the graphics adapter {name} is software")

@@ -70,6 +70,15 @@ impl Folder {
         folder
     }
 
+    /// A folder with a wing in it, whose two tips are zipped: four lenses, two pairs.
+    pub(crate) fn with_wing() -> Folder {
+        let folder = Folder::new();
+        let mut bytes = Vec::new();
+        ogee_formats::obj::write_cage(&ogee::shapes::lens(), "a wing", &mut bytes).unwrap();
+        folder.write("wing.obj", bytes);
+        folder
+    }
+
     pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.0.path().join(name)
     }

@@ -1,6 +1,7 @@
 //! A cage on its way through refinement, re-meshing and caps, and what is remembered of where its parts came from.
 
 use super::cap::{Cap, CapVertex};
+use super::piece::Piece;
 use super::remesh::Remeshed;
 use crate::mesh::{ControlMesh, FaceId, FaceList, FaceVarying, HalfedgeId, Meeting, Topology, VertexId};
 use crate::nurbs::FaceAddress;
@@ -12,6 +13,8 @@ pub(super) struct Rework {
     pub(super) mesh: ControlMesh,
     /// For each face the piece of the first cage that it is, or stands for.
     pub(super) addresses: Vec<FaceAddress>,
+    /// For each face the piece of the first cage that it is exactly; faces that re-meshing made are none.
+    pub(super) pieces: Vec<Option<Piece>>,
     /// In terms of `mesh`.
     pub(super) caps: Vec<Cap>,
     /// Edges of the first cage, as far as they are left: each a path of edges of `mesh`.
@@ -27,7 +30,8 @@ impl Rework {
     pub(super) fn new(mesh: &ControlMesh, edges: &[[u32; 2]]) -> Rework {
         let faces = (0..mesh.faces.len() as u32).map(FaceId);
         Rework {
-            addresses: faces.map(|face| FaceAddress { face, corner: None }).collect(),
+            addresses: faces.clone().map(|face| FaceAddress { face, corner: None }).collect(),
+            pieces: faces.map(|face| Some(Piece::whole(face))).collect(),
             caps: Vec::new(),
             edges: edges.iter().map(|&edge| vec![edge]).collect(),
             vertices: (0..mesh.points.len() as u32).map(Some).collect(),
@@ -62,6 +66,12 @@ impl Rework {
             FaceAddress { corner: whole.corner.or(Some(h.0 - topology.first(face).0)), ..whole }
         });
         self.addresses = addresses.collect();
+        let pieces = (0..topology.halfedge_count() as u32).map(HalfedgeId).map(|h| {
+            let face = topology.face(h);
+            let corner = h.0 - topology.first(face).0;
+            Some(self.pieces[face.index()]?.child(corner, topology.face_size(face)))
+        });
+        self.pieces = pieces.collect();
         let uv = self.mesh.uv.as_ref().map(|uv| {
             let (values_level, values) = level.face_varying(uv);
             let (values_level, values) = values_level.refine_points(&values);
@@ -82,6 +92,7 @@ impl Rework {
         let mut faces = FaceList::with_capacity(gone.len(), self.mesh.faces.corners().len());
         let mut uv_indices = Vec::new();
         let mut addresses = Vec::with_capacity(gone.len());
+        let mut pieces = Vec::with_capacity(gone.len());
         let mut corner = 0;
         for (face, vertices) in self.mesh.faces.iter().enumerate() {
             let corners = corner..corner + vertices.len();
@@ -90,6 +101,7 @@ impl Rework {
             if !gone[face] {
                 faces.push(vertices);
                 addresses.push(self.addresses[face]);
+                pieces.push(self.pieces[face]);
                 if let Some(uv) = &self.mesh.uv {
                     uv_indices.extend_from_slice(&uv.indices[corners]);
                 }
@@ -100,6 +112,7 @@ impl Rework {
         self.mesh.holes = holes.map(|face| number[face as usize]).collect();
         self.mesh.faces = faces;
         self.addresses = addresses;
+        self.pieces = pieces;
         if let Some(uv) = &mut self.mesh.uv {
             uv.indices = uv_indices;
         }
@@ -127,15 +140,18 @@ impl Rework {
             }
         }
         let mut addresses = vec![None; remeshed.mesh.faces.len()];
+        let mut pieces = vec![None; remeshed.mesh.faces.len()];
         for (old, new) in remeshed.faces.iter().enumerate().rev() {
             if let Some(new) = new {
                 addresses[new.index()] = Some(self.addresses[old]);
+                pieces[new.index()] = self.pieces[old];
             }
         }
         let own = |(face, address): (usize, Option<FaceAddress>)| {
             address.unwrap_or(FaceAddress { face: FaceId(face as u32), corner: None })
         };
         self.addresses = addresses.into_iter().enumerate().map(own).collect();
+        self.pieces = pieces;
         self.vertices = vertices;
         self.mesh = remeshed.mesh;
     }

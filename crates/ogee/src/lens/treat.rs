@@ -4,6 +4,7 @@ use super::biquartic::{Biquartic, Entry};
 use super::biquartic_cap::CapSite;
 use super::cap::Cap;
 use super::circles::PolarNeighbourhood;
+use super::cover::{self, Covered};
 use super::detect::{Detection, Lens, LensKind, LensPair, Pole, detect};
 use super::error::{LensError, Obstacle};
 use super::fan::{PolarNet, RadialRule};
@@ -134,6 +135,8 @@ pub struct Treated {
     pub vertices: Vec<Option<u32>>,
     /// What was done, by vertex.
     pub lenses: Vec<TreatedLens>,
+    /// The pieces of the first cage for which the caps stand.
+    pub(crate) covered: Vec<Covered>,
     /// The level of `mesh`.
     pub(crate) level: Level,
     /// The edges that were asked for, as far as they are left.
@@ -181,7 +184,8 @@ pub(crate) fn treat_following(
     options: &Options,
     edges: &[[u32; 2]],
 ) -> Result<Treated, LensError> {
-    let mut treatment = Treatment { options, work: Rework::new(mesh, edges), lenses: Vec::new() };
+    let work = Rework::new(mesh, edges);
+    let mut treatment = Treatment { options, work, covered: Vec::new(), lenses: Vec::new() };
     let level = loop {
         let level = Level::new(&treatment.work.mesh).map_err(LensError::Mesh)?;
         let found = detect(&level)?;
@@ -234,6 +238,7 @@ enum Plan<'a> {
 struct Treatment<'a> {
     options: &'a Options,
     work: Rework,
+    covered: Vec<Covered>,
     lenses: Vec<TreatedLens>,
 }
 
@@ -242,7 +247,7 @@ impl Treatment<'_> {
         let guarded = self.guarded(level);
         let mut choices = Vec::with_capacity(found.lenses.len());
         for lens in &found.lenses {
-            let mut choice = self.choice(found, lens)?;
+            let mut choice = self.choice(level, found, lens)?;
             if let Plan::Remesh(net, _) = choice.plan
                 && let Some(error) = in_the_way(lens, net, &guarded)
             {
@@ -253,7 +258,12 @@ impl Treatment<'_> {
         Ok(choices)
     }
 
-    fn choice<'a>(&self, found: &'a Detection, lens: &'a Lens) -> Result<Choice<'a>, LensError> {
+    fn choice<'a>(
+        &self,
+        level: &Level,
+        found: &'a Detection,
+        lens: &'a Lens,
+    ) -> Result<Choice<'a>, LensError> {
         let Options { method, averaging, .. } = *self.options;
         let vertex = lens.vertex;
         let polar = || {
@@ -271,7 +281,7 @@ impl Treatment<'_> {
         };
         let asked = || "asked for".to_owned();
         let (plan, reason) = match (method, polar()) {
-            (Method::Auto, Some((pair, Ok(circles)))) if self.has_tangent_plane(pair, circles) => {
+            (Method::Auto, Some((pair, Ok(circles)))) if self.has_tangent_plane(level, pair, circles) => {
                 (Plan::Polar(pair, circles), "circles go around the pair".to_owned())
             }
             (Method::Auto, polar) => {
@@ -351,7 +361,7 @@ impl Treatment<'_> {
                     }
                     let (slit, circle) = (self.points(&pair.slit), self.points(&circles.circles[0]));
                     let pole = pair_pole(&slit, &circle)?;
-                    let cap = self.polar(circles, pole).map_err(|error| error.at(pair.slit[0]))?;
+                    let cap = self.polar(level, circles, pole).map_err(|error| error.at(pair.slit[0]))?;
                     site.replace_disk(circles, cap);
                     for end in pair.ends() {
                         if let Some(lens) = found.lens(end) {
@@ -370,7 +380,8 @@ impl Treatment<'_> {
                 pole: self.work.mesh.points[pole.vertex.index()],
                 circles: circles.circles.iter().map(|circle| self.points(circle)).collect(),
             };
-            let Ok(cap) = net.limit(RadialRule::default()).and_then(|pole| self.polar(circles, pole)) else {
+            let Ok(cap) = net.limit(RadialRule::default()).and_then(|pole| self.polar(level, circles, pole))
+            else {
                 continue;
             };
             if site.takes(&circles.disk) {
@@ -388,6 +399,7 @@ impl Treatment<'_> {
             return Ok(false);
         }
         self.work.cut(&site.inside, &site.support, site.caps);
+        self.covered.extend(site.covered);
         Ok(true)
     }
 
@@ -395,25 +407,33 @@ impl Treatment<'_> {
         matches!(self.options.method, Method::Auto | Method::Polar)
     }
 
-    fn polar(&self, circles: &PolarNeighbourhood, pole: Vec3) -> Result<Cap, PolarError> {
+    fn polar(
+        &self,
+        level: &Level,
+        circles: &PolarNeighbourhood,
+        pole: Vec3,
+    ) -> Result<(Cap, Vec<Covered>), PolarError> {
         let points = circles.circles.each_ref().map(|circle| self.points(circle));
         let operator = PolarOperator::new(circles.columns(), self.options.variant)?;
         let cap = PolarCap::with(&operator, points.each_ref().map(Vec::as_slice), pole)?;
         let columns = circles.columns();
         let replaced =
             Grid::from_fn(2, columns, |row, x| self.work.addresses[circles.disk[row * columns + x].index()]);
-        cap.faces(&circles.circles[1], &replaced, self.options.faces)
+        let faces = cap.faces(&circles.circles[1], &replaced, self.options.faces)?;
+        Ok((faces, cover::by_polar_cap(circles, cap, level.topology(), &self.work.pieces)))
     }
 
-    fn rings(&self, level: &Level, net: &LensNet, entry: Entry) -> Cap {
+    fn rings(&self, level: &Level, net: &LensNet, entry: Entry) -> (Cap, Vec<Covered>) {
         let points = net.vertices.map(|v| self.work.mesh.points[v.index()]);
         let site = CapSite::new(net, level.topology(), |face| self.work.addresses[face.index()]);
-        Biquartic::from_bicubic(&points, entry).cap(self.options.rings, &site)
+        let surface = Biquartic::from_bicubic(&points, entry);
+        let cap = surface.cap(self.options.rings, &site);
+        (cap, cover::by_rings(net, &surface, level.topology(), &self.work.pieces))
     }
 
-    fn has_tangent_plane(&self, pair: &LensPair, circles: &PolarNeighbourhood) -> bool {
+    fn has_tangent_plane(&self, level: &Level, pair: &LensPair, circles: &PolarNeighbourhood) -> bool {
         let pole = pair_pole(&self.points(&pair.slit), &self.points(&circles.circles[0]));
-        pole.is_ok_and(|pole| self.polar(circles, pole).is_ok())
+        pole.is_ok_and(|pole| self.polar(level, circles, pole).is_ok())
     }
 
     fn points(&self, vertices: &[VertexId]) -> Vec<Vec3> {
@@ -479,9 +499,10 @@ impl Treatment<'_> {
 
     fn finish(mut self, level: Level) -> Treated {
         self.lenses.sort_by_key(|lens| lens.vertex);
-        let Rework { mesh, addresses, caps, edges, vertices, steps } = self.work;
+        let Rework { mesh, addresses, caps, edges, vertices, steps, .. } = self.work;
         let edges = edges.into_iter().flatten().collect();
-        Treated { mesh, level, caps, steps, addresses, vertices, lenses: self.lenses, edges }
+        let Treatment { covered, lenses, .. } = self;
+        Treated { mesh, level, caps, covered, steps, addresses, vertices, lenses, edges }
     }
 }
 
@@ -498,12 +519,13 @@ struct Site {
     inside: Vec<FaceId>,
     support: Vec<FaceId>,
     caps: Vec<Cap>,
+    covered: Vec<Covered>,
 }
 
 impl Site {
     fn new(level: &Level) -> Site {
         let taken = vec![false; level.topology().face_count()];
-        Site { taken, inside: Vec::new(), support: Vec::new(), caps: Vec::new() }
+        Site { taken, inside: Vec::new(), support: Vec::new(), caps: Vec::new(), covered: Vec::new() }
     }
 
     /// Takes these faces, unless one of them is taken already.
@@ -515,13 +537,14 @@ impl Site {
         true
     }
 
-    fn replace(&mut self, inside: Vec<FaceId>, support: Vec<FaceId>, cap: Cap) {
+    fn replace(&mut self, inside: Vec<FaceId>, support: Vec<FaceId>, (cap, covered): (Cap, Vec<Covered>)) {
         self.inside.extend(inside);
         self.support.extend(support);
         self.caps.push(cap);
+        self.covered.extend(covered);
     }
 
-    fn replace_disk(&mut self, circles: &PolarNeighbourhood, cap: Cap) {
+    fn replace_disk(&mut self, circles: &PolarNeighbourhood, cap: (Cap, Vec<Covered>)) {
         let (inside, support) = circles.disk.split_at(circles.columns());
         self.replace(inside.to_vec(), support.to_vec(), cap);
     }

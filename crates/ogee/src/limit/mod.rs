@@ -6,6 +6,7 @@ mod bicubic;
 mod closest;
 mod corner;
 mod evaluate;
+mod evaluator;
 mod faces;
 mod normals;
 mod out;
@@ -20,6 +21,7 @@ mod walk;
 mod weights;
 
 pub use closest::{Closest, ClosestPoints};
+pub use evaluator::Evaluator;
 pub use pattern::Pattern;
 pub use pieces::{FacePiece, PatchNet, TailPiece};
 pub use point::{Derivatives, Flags, LimitJet, Samples, SurfacePoint};

@@ -1,32 +1,33 @@
 //! The limit surface of a cage, as instruments look at it.
 
 use super::{Address, Joint, Layout, Side, Square, Surface};
-use crate::limit::{Derivatives, LimitSurface, Samples};
+use crate::limit::{Derivatives, Evaluator, LimitSurface, Samples};
 use crate::mesh::{FaceId, HalfedgeId, Topology};
 use crate::patch::{Location, PatchTable};
 use crate::rules::Level;
 
-/// The limit surface of a cage with the layout of its faces.
+/// The limit surface of a cage with the layout of its faces, or another surface over the same faces, as
+/// [`crate::lens::TreatedSurface`] is.
 #[derive(Clone, Debug)]
-pub struct LimitView<'a> {
-    surface: &'a LimitSurface<'a>,
+pub struct LimitView<'a, S = LimitSurface<'a>> {
+    surface: &'a S,
     layout: Layout,
 }
 
-impl<'a> LimitView<'a> {
+impl<'a, S: Evaluator> LimitView<'a, S> {
     /// Lays the faces of a level side by side; `surface` is that of a table of the same level. Hidden faces are left
     /// out.
-    pub fn new(level: &Level, surface: &'a LimitSurface<'a>) -> LimitView<'a> {
+    pub fn new(level: &Level, surface: &'a S) -> LimitView<'a, S> {
         LimitView { surface, layout: layout(level, surface.table()) }
     }
 
     /// The surface.
-    pub fn surface(&self) -> &'a LimitSurface<'a> {
+    pub fn surface(&self) -> &'a S {
         self.surface
     }
 }
 
-impl Surface for LimitView<'_> {
+impl<S: Evaluator> Surface for LimitView<'_, S> {
     fn layout(&self) -> &Layout {
         &self.layout
     }
