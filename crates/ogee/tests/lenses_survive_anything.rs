@@ -149,7 +149,7 @@ struct Cage {
 fn base(dice: &mut Dice) -> ControlMesh {
     match dice.below(7) {
         0 => globe(3 + dice.below(10) as u32, 1 + dice.below(6) as u32),
-        1 | 2 | 3 => {
+        1..=3 => {
             let width = 2 + dice.below(5) as i32;
             pillow(width, 2 + dice.below(7) as i32, dice.below(width as usize) as i32)
         }
@@ -586,7 +586,7 @@ fn poles_are_listed_whatever_was_asked_for() {
     for construction in [Method::Merge, Method::C2] {
         let treated = lens::treat(&mesh, &lens::Options { method: construction, ..lens::Options::default() });
         let lenses = treated.expect("a cage").lenses;
-        let reason = format!("{} is for vertices of valence 2", construction.name());
+        let reason = format!("{} is for lenses alone", construction.name());
         assert!(lenses.len() == 2 && lenses.iter().all(|pole| pole.reason == reason), "{lenses:?}");
     }
 }

@@ -211,19 +211,20 @@ pub(crate) fn treat_following(
         if treatment.work.steps == 0 {
             treatment.leave_poles(&found);
         }
-        let mut blocked = choices.iter().filter_map(|choice| match choice.plan {
-            Plan::Wait(obstacle) => Some((choice.lens.vertex, obstacle)),
-            _ => None,
-        });
-        let mut waits = false;
-        if let Some((vertex, obstacle)) = blocked.find(|&(_, obstacle)| {
-            waits = true;
-            !treatment.refining_helps(&level, obstacle)
-        }) {
-            return Err(treatment.blocked(vertex, obstacle));
-        }
-        if !waits {
+        let blocked: Vec<(VertexId, Obstacle)> = choices
+            .iter()
+            .filter_map(|choice| match choice.plan {
+                Plan::Wait(obstacle) => Some((choice.lens.vertex, obstacle)),
+                _ => None,
+            })
+            .collect();
+        if blocked.is_empty() {
             break level;
+        }
+        if let Some(&(vertex, obstacle)) =
+            blocked.iter().find(|(_, obstacle)| !treatment.refining_helps(&level, *obstacle))
+        {
+            return Err(treatment.blocked(vertex, obstacle));
         }
         treatment.work.refine(&level);
     };
@@ -452,7 +453,8 @@ impl<'m> Treatment<'m> {
                 _ => {}
             }
         }
-        let has_poles = self.work.steps == 0 && matches!(self.options.method, Method::Auto | Method::Polar);
+        // One refinement later a fan of triangles is none.
+        let has_poles = self.work.steps == 0 && self.caps_poles();
         for pole in found.poles.iter().filter(|_| has_poles) {
             let Ok(circles) = &pole.neighbourhood else { continue };
             let net = PolarNet {
@@ -478,6 +480,10 @@ impl<'m> Treatment<'m> {
         }
         self.work.cut(&site.inside, &site.support, site.caps);
         Ok(true)
+    }
+
+    fn caps_poles(&self) -> bool {
+        matches!(self.options.method, Method::Auto | Method::Polar)
     }
 
     fn polar(&self, circles: &PolarNeighbourhood, pole: Vec3) -> Result<Cap, PolarError> {
@@ -532,14 +538,12 @@ impl<'m> Treatment<'m> {
                 continue;
             }
             let pole = found.poles.iter().find(|pole| self.first(pole.vertex) == vertex);
-            let reason = match (pole.map(|pole| &pole.neighbourhood), self.options.method) {
-                (_, Method::C1) => "asked for".to_owned(),
-                (Some(Err(obstacle)), _) => self.told(*obstacle).to_string(),
-                (Some(Ok(_)), Method::Auto | Method::Polar) => {
-                    "no tangent plane at the pole, or another cap is in the way".to_owned()
-                }
-                (Some(Ok(_)), method) => format!("{} is for vertices of valence 2", method.name()),
-                (None, _) => "what was done beside it is in the way".to_owned(),
+            let reason = match pole.map(|pole| &pole.neighbourhood) {
+                _ if self.options.method == Method::C1 => "asked for".to_owned(),
+                _ if !self.caps_poles() => format!("{} is for lenses alone", self.options.method.name()),
+                Some(Ok(_)) => "no tangent plane at the pole, or another cap is in the way".to_owned(),
+                Some(Err(obstacle)) => self.told(*obstacle).to_string(),
+                None => "what was done beside it is in the way".to_owned(),
             };
             self.lenses.push(TreatedLens { vertex, paired_with: None, method: Method::C1, reason });
         }
