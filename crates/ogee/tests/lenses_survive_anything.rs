@@ -136,6 +136,17 @@ fn with_another_polygon(mesh: &mut ControlMesh, face: usize) {
     mesh.faces = faces;
 }
 
+/// Two or more curves meet at some vertex, where it has an even number of quads around it.
+fn curves_meet(mesh: &mut ControlMesh, dice: &mut Dice) {
+    let Ok(topology) = Topology::new(mesh) else { return };
+    let v = VertexId(dice.below(mesh.points.len()) as u32);
+    let is_even = matches!(topology.valence(v), Valence::Interior(n) if n >= 4 && n % 2 == 0);
+    if is_even && topology.ring(v).all(|h| topology.face_size(topology.face(h)) == 4) {
+        let port = topology.ring(v).next().map_or(0, |h| topology.target(h).0);
+        *mesh = cages::meeting(mesh.clone(), v.0, port, 0.5);
+    }
+}
+
 /// What was rolled.
 struct Cage {
     mesh: ControlMesh,
@@ -220,7 +231,10 @@ fn roll(seed: u64) -> Cage {
         degenerate = true;
         mesh.points.iter_mut().for_each(|p| p.z = 0.0);
     }
-    let scale = [1.0, 1.0, 1.0, 1e-9, 1e9][dice.below(5)];
+    if dice.one_in(5) {
+        curves_meet(&mut mesh, dice);
+    }
+    let scale = [1.0, 1.0, 1.0, 1e-9, 1e9, 1e-30, 1e30][dice.below(7)];
     mesh.points.iter_mut().for_each(|p| *p = scale * *p);
     Cage { mesh, seams, closed, degenerate }
 }
@@ -484,7 +498,9 @@ fn renumbered(cage: &Cage, dice: &mut Dice) -> (Cage, Vec<u32>) {
 #[test]
 fn numbers_and_mirrors_change_nothing() {
     for seed in 200..230 {
-        let cage = roll(seed);
+        let mut cage = roll(seed);
+        // Where curves meet has claims of its own.
+        cage.mesh.meetings.clear();
         let (other, number) = renumbered(&cage, &mut Dice::new(seed ^ 0xaaaa));
         for construction in [Method::Auto, Method::C2] {
             let convert = |cage: &Cage| {
