@@ -170,7 +170,7 @@ fn what_a_method_has_no_rule_for_is_refused() {
     folder.write("pillow.obj", pillow);
     folder.write("sharp.obj", with("t crease 2/1/0 0 1 9"));
     for (arguments, code, exit) in [
-        ("pillow.obj", "valence_two", 3),
+        ("pillow.obj", "adjacent_lens_vertices", 3),
         ("sharp.obj", "too_sharp", 3),
         ("sharp.obj --method bi5", "sharp_edge", 3),
         ("cube.obj --level 1", "level_too_low", 2),

@@ -8,7 +8,7 @@ use golden::{faces, index, list};
 use lens_nets::{document, fan, mesh, pair, single_lens};
 use ogee::lens::{
     Detection, LensError, LensKind, LensNet, Obstacle, Symmetry, detect, lattice_index, lattice_point,
-    regular_net, require_disjoint,
+    regular_net,
 };
 use ogee::{
     ControlMesh, Corner, Crease, Defect, FaceId, FaceList, Level, Meeting, Sharpness, Topology, Vec3,
@@ -299,22 +299,6 @@ fn refinement_moves_obstacles_away() {
 fn refined(level: &Level, points: &[Vec3]) -> (Level, Vec<Vec3>) {
     let refinement = ogee::Refinement::uniform(level, 1).unwrap();
     (refinement.finest().clone(), refinement.apply(points))
-}
-
-#[test]
-fn overlapping_disks_are_told() {
-    for (m, shared) in [(3, true), (4, false), (5, false)] {
-        let mesh = pair(m, 4);
-        let topology = Topology::new(&mesh).unwrap();
-        let found = find(&mesh);
-        let disks: Vec<Vec<FaceId>> =
-            found.isolated().map(|lens| lens.net.as_ref().unwrap().disk(&topology)).collect();
-        let named = [(VertexId(0), &disks[0][..]), (VertexId(m), &disks[1][..])];
-        match require_disjoint(&topology, &named) {
-            Ok(()) => assert!(!shared),
-            Err(error) => assert!(shared && error.code() == "overlap"),
-        }
-    }
 }
 
 #[test]

@@ -227,7 +227,7 @@ fn what_has_no_rule_is_refused_by_name() {
         shapes::cube().points[..4].to_vec(),
         [[0, 1, 3, 2], [2, 3, 1, 0]].into_iter().collect(),
     );
-    assert_eq!(code(&pillow, &Options::default()), "valence_two");
+    assert_eq!(code(&pillow, &Options::default()), "adjacent_lens_vertices");
     let low = Options { level: Some(1), ..Options::default() };
     assert_eq!(code(&shapes::cube(), &low), "level_too_low");
     assert_eq!(code(&shapes::cube(), &Options { level: Some(7), ..Options::default() }), "level_too_high");

@@ -186,7 +186,7 @@ pub fn to_part(mesh: &ControlMesh, options: &Options) -> Result<Part, ConvertErr
         return Err(ConvertError::NoSurface);
     }
     let seams = source.seams();
-    let least = source.least_level(options.method)?;
+    let least = source.least_level(options.method).map_err(|error| told(error, &source.origins))?;
     if let Some(level) = options.level.filter(|&level| level > DEEPEST_LEVEL) {
         return Err(ConvertError::LevelTooHigh { level });
     }
@@ -252,6 +252,8 @@ struct Source {
     /// Edges of that cage.
     seams: Vec<[u32; 2]>,
     lenses: Vec<TreatedLens>,
+    /// Where vertices of the quads come from.
+    origins: lens::Origins,
     /// Refinements before that.
     steps: u32,
 }
@@ -266,8 +268,9 @@ fn treated(mesh: &ControlMesh, options: &Options) -> Result<lens::Treated, Conve
         choices.method = lens::Method::Merge;
     }
     let treated = lens::treat_following(mesh, &choices, &options.seams)?;
-    match treated.lenses.first() {
-        Some(&TreatedLens { vertex, .. }) if options.method == Method::Bi5 && !treated.caps.is_empty() => {
+    let capped = treated.lenses.iter().find(|lens| lens.has_cap());
+    match capped {
+        Some(&TreatedLens { vertex, .. }) if options.method == Method::Bi5 => {
             Err(ConvertError::Cap { vertex })
         }
         _ => Ok(treated),
@@ -319,6 +322,7 @@ impl Source {
             caps: treated.caps,
             seams: treated.edges,
             lenses: treated.lenses,
+            origins: treated.origins,
             steps: treated.steps,
         };
         let topology = cage.topology();
@@ -330,6 +334,7 @@ impl Source {
                 FaceAddress { corner: whole.corner.or(Some(h.0 - topology.first(face).0)), ..whole }
             });
             source.addresses = corners.collect();
+            source.origins = source.origins.refined(topology);
             (source.quads, source.points) = cage.refine_points(&source.points);
             source.cage = Some(cage);
         }
@@ -372,6 +377,39 @@ impl Source {
             Method::Bi5 => 0,
         })
     }
+
+    /// A note about a vertex of the quads, in terms of the cage that was given.
+    fn told(&self, note: &Note) -> Note {
+        let Some(Place::Vertex(vertex)) = note.place else { return note.clone() };
+        let first = self.origins.nearest(VertexId(vertex)).0;
+        let message = note.message.replace(&format!(" {vertex} "), &format!(" {first} "));
+        Note { message, place: Some(Place::Vertex(first)), ..*note }
+    }
+}
+
+/// A refusal in terms of the cage that was given.
+fn told(error: PccmError, origins: &lens::Origins) -> PccmError {
+    let edge = |a, b| origins.edge(a, b).unwrap_or([a, b].map(|v| origins.nearest(v)));
+    match error {
+        PccmError::Lens { vertex } => PccmError::Lens { vertex: origins.nearest(vertex) },
+        PccmError::SharpVertex { vertex } => PccmError::SharpVertex { vertex: origins.nearest(vertex) },
+        PccmError::SharpEdge { a, b } => {
+            let [a, b] = edge(a, b);
+            PccmError::SharpEdge { a, b }
+        }
+        PccmError::TooSharp { place: Place::Edge(a, b), sharpness } => {
+            let [a, b] = edge(VertexId(a), VertexId(b));
+            PccmError::TooSharp { place: Place::Edge(a.0, b.0), sharpness }
+        }
+        PccmError::TooSharp { place: Place::Vertex(vertex), sharpness } => {
+            let place = Place::Vertex(origins.nearest(VertexId(vertex)).0);
+            PccmError::TooSharp { place, sharpness }
+        }
+        // These name nothing, or a face, and all faces are quads by now.
+        error @ (PccmError::LevelTooLow { .. } | PccmError::NotQuads { .. } | PccmError::TooSharp { .. }) => {
+            error
+        }
+    }
 }
 
 /// Patches of all quads, by whichever method.
@@ -400,7 +438,8 @@ impl<'a> Converted<'a> {
             Method::Bi5 => return Converted::quintic(source, level),
         };
         let options = pccm::Options { layer, level, ..pccm::Options::default() };
-        let patches = pccm::to_patches(&source.quads, &source.points, &options)?;
+        let patches = pccm::to_patches(&source.quads, &source.points, &options)
+            .map_err(|error| told(error, &source.origins))?;
         let surface = |net: &Grid<Vec3>| NurbsSurface {
             u: patches.knots.clone(),
             v: patches.knots.clone(),
@@ -427,11 +466,13 @@ impl<'a> Converted<'a> {
     fn quintic(source: &'a Source, level: u32) -> Result<Converted<'a>, ConvertError> {
         use std::borrow::Cow;
         let (mut base, mut points) = (Cow::Borrowed(&source.quads), Cow::Borrowed(&source.points[..]));
+        let mut origins = source.origins.clone();
         for _ in 0..level {
+            origins = origins.refined(base.topology());
             let (next, next_points) = base.refine_points(&points);
             (base, points) = (Cow::Owned(next), Cow::Owned(next_points));
         }
-        let nets = pccm::to_quintic_patches(&base, &points)?;
+        let nets = pccm::to_quintic_patches(&base, &points).map_err(|error| told(error, &origins))?;
         let knots = KnotVector::from_multiplicities(5, [(0.0, 6), (1.0, 6)]);
         let surfaces = nets.into_iter().map(|net| NurbsSurface { u: knots.clone(), v: knots.clone(), net });
         let source_quads = (0..base.topology().face_count() as u32).map(|quad| quad >> (2 * level)).collect();
@@ -505,7 +546,7 @@ fn finish(
     seams: &[HalfedgeId],
 ) -> Part {
     let mut all_notes = notes(mesh);
-    all_notes.extend_from_slice(patches.notes());
+    all_notes.extend(patches.notes().iter().map(|note| source.told(note)));
     all_notes.extend(source.refined_for_lenses());
     let address = |quad: u32| patches.address(source, quad);
     let mut sewing = Seams::new(&patches.base, patches.broken());

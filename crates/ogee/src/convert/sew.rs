@@ -198,7 +198,11 @@ fn adopt_edges(surface: &mut NurbsSurface, boundary: &[EdgeUse], edges: &[ShellE
         let along_growing = matches!(used.side, Side::V0 | Side::U1) == used.forward;
         let edge = &edges[used.edge as usize].curve;
         let curve = if along_growing { edge.clone() } else { edge.reversed() };
-        if curve.knots != surface.side(used.side).knots {
+        let knots = surface.side(used.side).knots;
+        // A piece of a side may have the knots of the whole: its curve can be that of the face beyond.
+        let [low, high] = knots.domain();
+        let is_whole = used.range == [low, high] || used.range == [high, low];
+        if !is_whole || curve.knots != knots {
             continue;
         }
         let mut points = side_points(surface, used.side);

@@ -134,24 +134,7 @@ pub fn detect(level: &Level) -> Result<Detection, LensError> {
 pub fn regular_net(level: &Level, vertex: VertexId) -> Result<LensNet, LensError> {
     let net = LensNet::new(level.topology(), vertex).ok_or(LensError::NotALens { vertex })?;
     let net = net.and_then(|net| smooth_net(level, &net).map_or(Ok(net), Err));
-    net.map_err(|obstacle| LensError::Blocked { vertex, obstacle })
-}
-
-/// The first face that two disks share, which then cannot both be replaced: each is named by a vertex of its own, a lens or a pole.
-///
-/// # Errors
-/// [`LensError::Overlap`].
-pub fn require_disjoint(topology: &Topology, disks: &[(VertexId, &[FaceId])]) -> Result<(), LensError> {
-    let mut owner: Vec<Option<VertexId>> = vec![None; topology.face_count()];
-    for &(second, faces) in disks {
-        for &face in faces {
-            match owner[face.index()].replace(second) {
-                Some(first) if first != second => return Err(LensError::Overlap { first, second, face }),
-                _ => {}
-            }
-        }
-    }
-    Ok(())
+    net.map_err(|obstacle| LensError::Blocked { vertex, obstacle, refinements: 0 })
 }
 
 fn refuse_pillow(topology: &Topology, vertex: VertexId) -> Result<(), LensError> {

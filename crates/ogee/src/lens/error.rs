@@ -27,6 +27,8 @@ pub enum Obstacle {
     Meeting { face: FaceId, layer: u32 },
     #[error("face {face} in layer {layer} is no part of the surface; take its tag away")]
     HiddenFace { face: FaceId, layer: u32 },
+    #[error("the cap of another lens or pole ends near vertex {vertex}; use merge, or refine the cage first")]
+    Cap { vertex: VertexId, layer: u32 },
 }
 
 impl Obstacle {
@@ -41,6 +43,7 @@ impl Obstacle {
             Obstacle::SharpVertex { .. } => "sharp_vertex",
             Obstacle::Meeting { .. } => "meeting",
             Obstacle::HiddenFace { .. } => "hidden_face",
+            Obstacle::Cap { .. } => "cap",
         }
     }
 
@@ -54,7 +57,8 @@ impl Obstacle {
             | Obstacle::SharpEdge { layer, .. }
             | Obstacle::SharpVertex { layer, .. }
             | Obstacle::Meeting { layer, .. }
-            | Obstacle::HiddenFace { layer, .. } => layer,
+            | Obstacle::HiddenFace { layer, .. }
+            | Obstacle::Cap { layer, .. } => layer,
         }
     }
 
@@ -64,6 +68,7 @@ impl Obstacle {
         match (self, self.layer()) {
             // What a polygon leaves behind is a vertex in layer 1.
             (Obstacle::NotAQuad { .. }, 1) => Some(3),
+            (Obstacle::Cap { .. }, _) => Some(1),
             (Obstacle::HiddenFace { .. }, 1) | (_, 0) => None,
             (_, 1) => Some(2),
             _ => Some(1),
@@ -85,20 +90,24 @@ pub enum LensError {
     AdjacentLensVertices { vertices: [VertexId; 4] },
     #[error("vertex {vertex} is no inner vertex with two faces; name a lens vertex")]
     NotALens { vertex: VertexId },
-    #[error("the neighbourhood of vertex {vertex} is not regular: {obstacle}")]
-    Blocked { vertex: VertexId, obstacle: Obstacle },
+    #[error("the neighbourhood of vertex {vertex} is not regular{}: {obstacle}", after(*refinements))]
+    Blocked { vertex: VertexId, obstacle: Obstacle, refinements: u32 },
     #[error("the lens at vertex {vertex} is named twice; name it once")]
     NamedTwice { vertex: VertexId },
-    #[error(
-        "what is replaced around vertices {first} and {second} shares face {face}; refine the cage once first"
-    )]
-    Overlap { first: VertexId, second: VertexId, face: FaceId },
     #[error(
         "the lens at vertex {vertex} has no circles around it ({why}), which a polar cap wants; use merge or c2"
     )]
     NoPartner { vertex: VertexId, why: &'static str },
     #[error(transparent)]
     Polar(#[from] PolarError),
+}
+
+fn after(refinements: u32) -> String {
+    match refinements {
+        0 => String::new(),
+        1 => " after a refinement".to_owned(),
+        count => format!(" after {count} refinements"),
+    }
 }
 
 impl LensError {
@@ -110,7 +119,6 @@ impl LensError {
             LensError::NotALens { .. } => "not_a_lens",
             LensError::Blocked { .. } => "blocked",
             LensError::NamedTwice { .. } => "named_twice",
-            LensError::Overlap { .. } => "overlap",
             LensError::NoPartner { .. } => "no_partner",
             LensError::Polar(error) => error.code(),
         }

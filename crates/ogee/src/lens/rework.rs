@@ -1,9 +1,14 @@
 //! A cage on its way through refinement, re-meshing and caps, and what is remembered of where its parts came from.
 
+use std::collections::BTreeSet;
+
 use super::cap::{Cap, CapVertex};
+use super::origins::Origins;
 use super::piece::Piece;
 use super::remesh::Remeshed;
-use crate::mesh::{ControlMesh, FaceId, FaceList, FaceVarying, HalfedgeId, Meeting, Topology, VertexId};
+use crate::mesh::{
+    ControlMesh, Crease, FaceId, FaceList, FaceVarying, HalfedgeId, Meeting, Topology, VertexId,
+};
 use crate::nurbs::FaceAddress;
 use crate::rules::Level;
 
@@ -21,6 +26,7 @@ pub(super) struct Rework {
     pub(super) edges: Vec<Vec<[u32; 2]>>,
     /// For each vertex that of the first cage that it is, if it is one.
     pub(super) vertices: Vec<Option<u32>>,
+    pub(super) origins: Origins,
     /// Refinements so far.
     pub(super) steps: u32,
 }
@@ -35,6 +41,7 @@ impl Rework {
             caps: Vec::new(),
             edges: edges.iter().map(|&edge| vec![edge]).collect(),
             vertices: (0..mesh.points.len() as u32).map(Some).collect(),
+            origins: Origins::new(mesh.points.len()),
             steps: 0,
             mesh: mesh.clone(),
         }
@@ -79,6 +86,7 @@ impl Rework {
         });
         let (child, points) = level.refine_points(&self.mesh.points);
         self.vertices.resize(points.len(), None);
+        self.origins = self.origins.refined(topology);
         self.mesh = ControlMesh { meetings, uv, ..child.to_cage(points) };
         self.steps += 1;
     }
@@ -119,7 +127,21 @@ impl Rework {
         let mut used = vec![false; self.mesh.points.len()];
         self.mesh.faces.corners().iter().for_each(|&v| used[v as usize] = true);
         self.mesh.corners.retain(|tag| used[tag.vertex as usize]);
+        self.drop_lost_creases();
         self.caps.extend(caps);
+    }
+
+    /// Creases without sharpness may stand on edges that are gone.
+    fn drop_lost_creases(&mut self) {
+        if self.mesh.creases.is_empty() {
+            return;
+        }
+        let edge = |a: u32, b: u32| [a.min(b), a.max(b)];
+        let mut edges = BTreeSet::new();
+        for face in self.mesh.faces.iter() {
+            edges.extend((0..face.len()).map(|k| edge(face[k], face[(k + 1) % face.len()])));
+        }
+        self.mesh.creases.retain(|&Crease { vertices: [a, b], .. }| edges.contains(&edge(a, b)));
     }
 
     /// Takes over a cage that some lenses were taken from.
@@ -152,6 +174,7 @@ impl Rework {
         };
         self.addresses = addresses.into_iter().enumerate().map(own).collect();
         self.pieces = pieces;
+        self.origins = self.origins.renumbered(vertices.len(), &remeshed.vertices);
         self.vertices = vertices;
         self.mesh = remeshed.mesh;
     }

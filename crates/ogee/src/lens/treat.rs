@@ -1,14 +1,18 @@
 //! A cage with lenses and poles made ready for methods that have no rule for them: another cage, and caps.
 
+use std::cell::OnceCell;
+use std::collections::BTreeMap;
+
 use super::biquartic::{Biquartic, Entry};
 use super::biquartic_cap::CapSite;
 use super::cap::Cap;
 use super::circles::PolarNeighbourhood;
 use super::cover::{self, Covered};
-use super::detect::{Detection, Lens, LensKind, LensPair, Pole, detect};
+use super::detect::{Detection, Lens, LensKind, LensPair, detect};
 use super::error::{LensError, Obstacle};
 use super::fan::{PolarNet, RadialRule};
 use super::layout::LensNet;
+use super::origins::Origins;
 use super::pair_pole::pair_pole;
 use super::polar::PolarCap;
 use super::polar_energy::PolarOperator;
@@ -19,7 +23,7 @@ use super::remesh::{Averaging, Remesh, remesh};
 use super::rework::Rework;
 
 use crate::math::{Grid, Vec3};
-use crate::mesh::{ControlMesh, FaceId, VertexId};
+use crate::mesh::{ControlMesh, FaceId, Topology, Valence, VertexId};
 use crate::nurbs::FaceAddress;
 use crate::rules::Level;
 
@@ -139,6 +143,8 @@ pub struct Treated {
     pub(crate) covered: Vec<Covered>,
     /// The level of `mesh`.
     pub(crate) level: Level,
+    /// Where its vertices come from.
+    pub(crate) origins: Origins,
     /// The edges that were asked for, as far as they are left.
     pub(crate) edges: Vec<[u32; 2]>,
 }
@@ -154,6 +160,13 @@ pub struct TreatedLens {
     pub method: Method,
     /// Why this and no other.
     pub reason: String,
+}
+
+impl TreatedLens {
+    /// True if a cap has taken the place of what was around it.
+    pub(crate) fn has_cap(&self) -> bool {
+        matches!(self.method, Method::C2 | Method::DegreeRaise | Method::Polar)
+    }
 }
 
 /// The most refinements that are taken to clear a neighbourhood.
@@ -184,14 +197,14 @@ pub(crate) fn treat_following(
     options: &Options,
     edges: &[[u32; 2]],
 ) -> Result<Treated, LensError> {
-    let work = Rework::new(mesh, edges);
-    let mut treatment = Treatment { options, work, covered: Vec::new(), lenses: Vec::new() };
+    let mut treatment = Treatment::new(mesh, options, edges);
     let level = loop {
         let level = Level::new(&treatment.work.mesh).map_err(LensError::Mesh)?;
         let found = detect(&level)?;
+        treatment.poles.get_or_insert_with(|| found.poles.iter().map(|pole| pole.vertex).collect());
         if options.method == Method::C1 {
             treatment.leave_lenses(&found);
-            treatment.leave_poles(&found, |_| "asked for".to_owned());
+            treatment.leave_poles(&found);
             break level;
         }
         let choices = treatment.choices(&level, &found)?;
@@ -199,20 +212,22 @@ pub(crate) fn treat_following(
             continue;
         }
         if treatment.work.steps == 0 {
-            let is_for_poles = treatment.caps_poles();
-            treatment.leave_poles(&found, |pole| match &pole.neighbourhood {
-                _ if !is_for_poles => format!("{} is for lenses alone", options.method.name()),
-                Ok(_) => "no tangent plane at the pole, or another cap is in the way".to_owned(),
-                Err(obstacle) => obstacle.to_string(),
-            });
+            treatment.leave_poles(&found);
         }
-        let blocked = choices.into_iter().find_map(|choice| match choice.plan {
-            Plan::Wait(error) => Some(error),
-            _ => None,
-        });
-        let Some(error) = blocked else { break level };
-        if !treatment.refining_helps(&level, &error) {
-            return Err(error);
+        let blocked: Vec<(VertexId, Obstacle)> = choices
+            .iter()
+            .filter_map(|choice| match choice.plan {
+                Plan::Wait(obstacle) => Some((choice.lens.vertex, obstacle)),
+                _ => None,
+            })
+            .collect();
+        if blocked.is_empty() {
+            break level;
+        }
+        if let Some(&(vertex, obstacle)) =
+            blocked.iter().find(|(_, obstacle)| !treatment.refining_helps(&level, *obstacle))
+        {
+            return Err(treatment.blocked(vertex, obstacle));
         }
         treatment.work.refine(&level);
     };
@@ -231,31 +246,103 @@ enum Plan<'a> {
     Rings(&'a LensNet, Entry),
     Polar(&'a LensPair, &'a PolarNeighbourhood),
     /// Something is in the way for now.
-    Wait(LensError),
+    Wait(Obstacle),
+}
+
+impl Plan<'_> {
+    /// The vertex that names the cap, if it is one: of a pair the first.
+    fn cap_vertex(&self) -> Option<VertexId> {
+        match self {
+            Plan::Rings(net, _) => Some(net.centre()),
+            Plan::Polar(pair, _) => Some(pair.ends()[0]),
+            Plan::Remesh(..) | Plan::Wait(_) => None,
+        }
+    }
+
+    /// The faces that a cap stands in for.
+    fn disk(&self, topology: &Topology) -> Vec<FaceId> {
+        match self {
+            Plan::Rings(net, _) => net.disk(topology),
+            Plan::Polar(_, circles) => circles.disk.clone(),
+            Plan::Remesh(..) | Plan::Wait(_) => Vec::new(),
+        }
+    }
+
+    /// True if the slits of two pairs have a vertex in common.
+    fn crosses(&self, other: &Plan<'_>) -> bool {
+        match (self, other) {
+            (Plan::Polar(one, _), Plan::Polar(two, _)) => one.slit.iter().any(|v| two.slit.contains(v)),
+            _ => false,
+        }
+    }
 }
 
 /// A treatment under way.
 struct Treatment<'a> {
     options: &'a Options,
+    mesh: &'a ControlMesh,
+    /// The level of `mesh`, once it is asked for.
+    first_level: OnceCell<Option<Level>>,
     work: Rework,
     covered: Vec<Covered>,
     lenses: Vec<TreatedLens>,
+    /// Those of `mesh`, once they are known.
+    poles: Option<Vec<VertexId>>,
 }
 
-impl Treatment<'_> {
+impl<'m> Treatment<'m> {
+    fn new(mesh: &'m ControlMesh, options: &'m Options, edges: &[[u32; 2]]) -> Treatment<'m> {
+        Treatment {
+            options,
+            mesh,
+            first_level: OnceCell::new(),
+            work: Rework::new(mesh, edges),
+            covered: Vec::new(),
+            lenses: Vec::new(),
+            poles: None,
+        }
+    }
+
     fn choices<'a>(&self, level: &Level, found: &'a Detection) -> Result<Vec<Choice<'a>>, LensError> {
         let guarded = self.guarded(level);
         let mut choices = Vec::with_capacity(found.lenses.len());
         for lens in &found.lenses {
             let mut choice = self.choice(level, found, lens)?;
             if let Plan::Remesh(net, _) = choice.plan
-                && let Some(error) = in_the_way(lens, net, &guarded)
+                && let Some(obstacle) = in_the_way(net, &guarded)
             {
-                choice.plan = Plan::Wait(error);
+                choice.plan = Plan::Wait(obstacle);
             }
             choices.push(choice);
         }
+        if self.work.steps < MOST_STEPS {
+            self.put_off_overlaps(level, &mut choices);
+        }
         Ok(choices)
+    }
+
+    /// Caps that would replace the same faces wait for a finer cage, where all of them have room: which one comes first would
+    /// depend on the numbering. Only slits that cross never part.
+    fn put_off_overlaps(&self, level: &Level, choices: &mut [Choice<'_>]) {
+        let mut owner: Vec<Option<usize>> = vec![None; level.topology().face_count()];
+        let mut overlaps = BTreeMap::new();
+        for (number, choice) in choices.iter().enumerate() {
+            let Some(vertex) = choice.plan.cap_vertex() else { continue };
+            for face in choice.plan.disk(level.topology()) {
+                let other = &choices[*owner[face.index()].get_or_insert(number)];
+                if let Some(beside) = other.plan.cap_vertex().filter(|&beside| beside != vertex)
+                    && !choice.plan.crosses(&other.plan)
+                {
+                    overlaps.insert(vertex, beside);
+                    overlaps.insert(beside, vertex);
+                }
+            }
+        }
+        for choice in choices {
+            if let Some(vertex) = choice.plan.cap_vertex().and_then(|vertex| overlaps.get(&vertex)) {
+                choice.plan = Plan::Wait(Obstacle::Cap { vertex: *vertex, layer: 2 });
+            }
+        }
     }
 
     fn choice<'a>(
@@ -274,10 +361,9 @@ impl Treatment<'_> {
             LensKind::Ambiguous => "two partners are equally near",
             LensKind::Single | LensKind::Paired { .. } => "no partner",
         };
-        let wait = |obstacle: Obstacle| Plan::Wait(LensError::Blocked { vertex, obstacle });
         let from_net = |plan: &dyn Fn(&'a LensNet) -> Plan<'a>| match &lens.net {
             Ok(net) => plan(net),
-            Err(obstacle) => wait(*obstacle),
+            Err(obstacle) => Plan::Wait(*obstacle),
         };
         let asked = || "asked for".to_owned();
         let (plan, reason) = match (method, polar()) {
@@ -288,13 +374,17 @@ impl Treatment<'_> {
                 let why = match polar {
                     None => alone.to_owned(),
                     Some((_, Ok(_))) => "the middle of the pair has no tangent plane".to_owned(),
-                    Some((_, Err(obstacle))) => format!("no circles go around the pair: {obstacle}"),
+                    Some((_, Err(obstacle))) => {
+                        format!("no circles go around the pair: {}", self.told(*obstacle))
+                    }
                 };
                 (from_net(&|net| Plan::Remesh(net, Remesh::Merge(averaging))), why)
             }
             (Method::Polar, Some((pair, Ok(circles)))) => (Plan::Polar(pair, circles), asked()),
-            (Method::Polar, Some((_, Err(obstacle)))) => (wait(*obstacle), String::new()),
-            (Method::Polar, None) => return Err(LensError::NoPartner { vertex, why: alone }),
+            (Method::Polar, Some((_, Err(obstacle)))) => (Plan::Wait(*obstacle), String::new()),
+            (Method::Polar, None) => {
+                return Err(LensError::NoPartner { vertex: self.first(vertex), why: alone });
+            }
             _ => match (method.remesh(averaging), method.entry()) {
                 (Some(how), _) => (from_net(&|net| Plan::Remesh(net, how)), asked()),
                 (None, entry) => {
@@ -360,8 +450,9 @@ impl Treatment<'_> {
                         continue;
                     }
                     let (slit, circle) = (self.points(&pair.slit), self.points(&circles.circles[0]));
-                    let pole = pair_pole(&slit, &circle)?;
-                    let cap = self.polar(level, circles, pole).map_err(|error| error.at(pair.slit[0]))?;
+                    let cap = pair_pole(&slit, &circle)
+                        .and_then(|pole| self.polar(level, circles, pole))
+                        .map_err(|error| error.at(self.first(pair.slit[0])))?;
                     site.replace_disk(circles, cap);
                     for end in pair.ends() {
                         if let Some(lens) = found.lens(end) {
@@ -460,57 +551,107 @@ impl Treatment<'_> {
         }
     }
 
-    fn leave_poles(&mut self, found: &Detection, reason: impl Fn(&Pole) -> String) {
-        let is_done = |vertex: VertexId| self.lenses.iter().any(|lens| lens.vertex == vertex);
-        let left: Vec<TreatedLens> = found
-            .poles
-            .iter()
-            .filter(|pole| !is_done(self.first(pole.vertex)))
-            .map(|pole| TreatedLens {
-                vertex: self.first(pole.vertex),
-                paired_with: None,
-                method: Method::C1,
-                reason: reason(pole),
-            })
-            .collect();
-        self.lenses.extend(left);
+    /// Notes the poles of the first cage that are as they were, and why.
+    fn leave_poles(&mut self, found: &Detection) {
+        for vertex in self.poles.take().unwrap_or_default() {
+            if self.lenses.iter().any(|lens| lens.vertex == vertex) {
+                continue;
+            }
+            let pole = found.poles.iter().find(|pole| self.first(pole.vertex) == vertex);
+            let reason = match pole.map(|pole| &pole.neighbourhood) {
+                _ if self.options.method == Method::C1 => "asked for".to_owned(),
+                _ if !self.caps_poles() => format!("{} is for lenses alone", self.options.method.name()),
+                Some(Ok(_)) => "no tangent plane at the pole, or another cap is in the way".to_owned(),
+                Some(Err(obstacle)) => self.told(*obstacle).to_string(),
+                None => "what was done beside it is in the way".to_owned(),
+            };
+            self.lenses.push(TreatedLens { vertex, paired_with: None, method: Method::C1, reason });
+        }
     }
 
-    /// True if refinement gets out of the way what an error tells.
-    fn refining_helps(&self, level: &Level, error: &LensError) -> bool {
+    /// True if refinement gets an obstacle out of the way.
+    fn refining_helps(&self, level: &Level, obstacle: Obstacle) -> bool {
         let left = MOST_STEPS - self.work.steps;
         let fades = |sharpness: f64| sharpness.is_finite() && sharpness.ceil() <= f64::from(left);
-        match error {
-            LensError::Blocked { obstacle, .. } => {
-                let topology = level.topology();
-                let faded = match *obstacle {
-                    Obstacle::SharpEdge { a, b, .. } => {
-                        let edge = topology.ring(a).find(|&h| topology.target(h) == b);
-                        edge.is_some_and(|h| fades(level.edge_sharpness(h)))
-                    }
-                    Obstacle::SharpVertex { vertex, .. } => fades(level.vertex_sharpness(vertex)),
-                    _ => false,
-                };
-                faded || obstacle.refinements().is_some_and(|steps| steps <= left)
+        let topology = level.topology();
+        let faded = match obstacle {
+            Obstacle::SharpEdge { a, b, .. } => {
+                let edge = topology.ring(a).find(|&h| topology.target(h) == b);
+                edge.is_some_and(|h| fades(level.edge_sharpness(h)))
             }
+            Obstacle::SharpVertex { vertex, .. } => fades(level.vertex_sharpness(vertex)),
             _ => false,
+        };
+        faded || obstacle.refinements().is_some_and(|steps| steps <= left)
+    }
+
+    /// The error that a lens of the cage as it is now cannot be treated.
+    fn blocked(&self, vertex: VertexId, obstacle: Obstacle) -> LensError {
+        LensError::Blocked {
+            vertex: self.first(vertex),
+            obstacle: self.told(obstacle),
+            refinements: self.work.steps,
+        }
+    }
+
+    /// An obstacle in the cage as it is now, in terms of the first one.
+    fn told(&self, obstacle: Obstacle) -> Obstacle {
+        let origins = &self.work.origins;
+        let first_level = self.first_level.get_or_init(|| Level::new(self.mesh).ok()).as_ref();
+        let is_hidden = |face| first_level.is_some_and(|level| !level.is_visible(face));
+        let on_boundary = |vertex| {
+            first_level.is_some_and(|level| matches!(level.topology().valence(vertex), Valence::Boundary(_)))
+        };
+        let first_face = |face: FaceId| self.work.addresses[face.index()].face;
+        match obstacle {
+            Obstacle::NotAQuad { face, layer } => Obstacle::NotAQuad { face: first_face(face), layer },
+            Obstacle::Meeting { face, layer } => Obstacle::Meeting { face: first_face(face), layer },
+            Obstacle::HiddenFace { face, layer } if is_hidden(first_face(face)) => {
+                Obstacle::HiddenFace { face: first_face(face), layer }
+            }
+            Obstacle::HiddenFace { face, layer } => {
+                let corner = self.work.mesh.faces.iter().nth(face.index()).map_or(0, |corners| corners[0]);
+                Obstacle::Cap { vertex: origins.nearest(VertexId(corner)), layer }
+            }
+            Obstacle::Boundary { vertex, layer } => {
+                let vertex = origins.nearest(vertex);
+                if on_boundary(vertex) {
+                    Obstacle::Boundary { vertex, layer }
+                } else {
+                    Obstacle::Cap { vertex, layer }
+                }
+            }
+            Obstacle::OtherLens { vertex, layer } => {
+                Obstacle::OtherLens { vertex: origins.nearest(vertex), layer }
+            }
+            Obstacle::Extraordinary { vertex, valence, layer } => {
+                Obstacle::Extraordinary { vertex: origins.nearest(vertex), valence, layer }
+            }
+            Obstacle::SharpEdge { a, b, layer } => {
+                let [a, b] = origins.edge(a, b).unwrap_or([a, b].map(|v| origins.nearest(v)));
+                Obstacle::SharpEdge { a, b, layer }
+            }
+            Obstacle::SharpVertex { vertex, layer } => {
+                Obstacle::SharpVertex { vertex: origins.nearest(vertex), layer }
+            }
+            Obstacle::Cap { vertex, layer } => Obstacle::Cap { vertex: origins.nearest(vertex), layer },
         }
     }
 
     fn finish(mut self, level: Level) -> Treated {
         self.lenses.sort_by_key(|lens| lens.vertex);
-        let Rework { mesh, addresses, caps, edges, vertices, steps, .. } = self.work;
+        let Rework { mesh, addresses, caps, edges, vertices, origins, steps, .. } = self.work;
         let edges = edges.into_iter().flatten().collect();
         let Treatment { covered, lenses, .. } = self;
-        Treated { mesh, level, caps, covered, steps, addresses, vertices, lenses, edges }
+        Treated { mesh, level, origins, caps, covered, steps, addresses, vertices, lenses, edges }
     }
 }
 
 /// What keeps a lens from being re-meshed: a cap hangs on a vertex that would move. Two lenses with regular nets have none of
 /// these vertices in common.
-fn in_the_way(lens: &Lens, net: &LensNet, guarded: &[bool]) -> Option<LensError> {
+fn in_the_way(net: &LensNet, guarded: &[bool]) -> Option<Obstacle> {
     let vertex = net.vertices[..5].iter().copied().find(|v| guarded[v.index()])?;
-    Some(LensError::Blocked { vertex: lens.vertex, obstacle: Obstacle::Boundary { vertex, layer: 2 } })
+    Some(Obstacle::Cap { vertex, layer: 2 })
 }
 
 /// Where caps come to stand.

@@ -67,6 +67,16 @@ pub enum Place {
     Face(u32),
 }
 
+impl std::fmt::Display for Place {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Place::Vertex(vertex) => write!(f, "vertex {vertex}"),
+            Place::Edge(a, b) => write!(f, "edge {a}-{b}"),
+            Place::Face(face) => write!(f, "face {face}"),
+        }
+    }
+}
+
 impl Defect {
     /// A stable name in snake case, the `code` of the command line's JSON.
     pub fn code(&self) -> &'static str {

@@ -1,7 +1,7 @@
 //! What a cage asks of the conversion: the least level, and what has no rule.
 
 use super::{CornerClass, Fan, Layer, meetings};
-use crate::mesh::{FaceId, HalfedgeId, Valence, VertexId};
+use crate::mesh::{FaceId, HalfedgeId, Place, Valence, VertexId};
 use crate::rules::Level;
 
 /// The greatest finite sharpness that is converted: a patch has `2^q` cells a side.
@@ -34,8 +34,8 @@ pub enum PccmError {
         "{place} has sharpness {sharpness}; {SHARPEST} is the most that is converted, or 10 for infinitely sharp"
     )]
     TooSharp {
-        /// The edge or vertex, in words.
-        place: String,
+        /// The edge or vertex.
+        place: Place,
         /// Its sharpness.
         sharpness: f64,
     },
@@ -120,11 +120,11 @@ fn refuse(base: &Level) -> Result<(), PccmError> {
     let topology = base.topology();
     refuse_valence_two(base)?;
     if let Some((h, sharpness)) = base.semi_sharp_edges().find(|&(_, s)| s > SHARPEST) {
-        let place = format!("edge {}-{}", topology.origin(h), topology.target(h));
+        let place = Place::Edge(topology.origin(h).0, topology.target(h).0);
         return Err(PccmError::TooSharp { place, sharpness });
     }
     if let Some((v, sharpness)) = base.semi_sharp_vertices().find(|&(_, s)| s > SHARPEST) {
-        return Err(PccmError::TooSharp { place: format!("vertex {v}"), sharpness });
+        return Err(PccmError::TooSharp { place: Place::Vertex(v.0), sharpness });
     }
     Ok(())
 }
