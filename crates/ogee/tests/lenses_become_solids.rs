@@ -35,6 +35,8 @@ fn cages() -> Vec<(&'static str, ControlMesh)> {
         ("odd pouch", pouch(5, 9)),
         ("wing", shapes::lens()),
         ("torus with doublets", with_doublets(&shapes::torus(8, 6), 11)),
+        // Caps on the poles first, then refinement for the others.
+        ("globe with doublets", with_doublets(&globe(8, 9), 40)),
     ]
 }
 
@@ -95,6 +97,16 @@ fn every_piece_of_the_cage_has_its_name() {
             assert!(named.iter().copied().eq(0..mesh.faces.len() as u32), "{name}, {packing:?}");
         }
     }
+}
+
+#[test]
+fn refinement_that_does_not_fit_is_refused() {
+    let mesh = with_doublets(&shapes::torus(8, 6), 11);
+    let fits = |memory: u64| to_part(&mesh, &Options { memory: Some(memory), ..Options::default() });
+    let error = fits(10_000).expect_err("no room");
+    assert_eq!(error.code(), "too_deep");
+    assert!(error.to_string().contains("room around lenses"), "{error}");
+    assert!(fits(1 << 30).is_ok());
 }
 
 #[test]

@@ -267,7 +267,7 @@ fn treated(mesh: &ControlMesh, options: &Options) -> Result<lens::Treated, Conve
     if options.method == Method::Bi5 && choices.method == lens::Method::Auto {
         choices.method = lens::Method::Merge;
     }
-    let treated = lens::treat_following(mesh, &choices, &options.seams)?;
+    let treated = lens::treat_following(mesh, &choices, &options.seams, options.memory.unwrap_or(u64::MAX))?;
     let capped = treated.lenses.iter().find(|lens| lens.has_cap());
     match capped {
         Some(&TreatedLens { vertex, .. }) if options.method == Method::Bi5 => {

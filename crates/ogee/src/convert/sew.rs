@@ -55,20 +55,14 @@ fn side_points(surface: &NurbsSurface, side: Side) -> Vec<(usize, usize)> {
     }
 }
 
-/// The position of every vertex that is a corner of some face. All surfaces get the same one, bit for bit; a side that
-/// is one point gets it all along.
+/// The position of every vertex that is a corner of some face. All surfaces get the same one, bit for bit.
 fn place_corners(seams: &Seams<'_>, faces: &mut [Face]) -> Vec<Option<Vec3>> {
     let mut corners = seams.positions();
     for face in faces {
         for (number, side) in SIDES.into_iter().enumerate() {
             let points = side_points(&face.surface, side);
             let (Some(first), Some(last)) = (face.sides[number].first(), face.sides[number].last()) else {
-                // A pole: the corner where the side before it ends.
-                if let Some(pole) = face.sides[(number + 3) % 4].last() {
-                    let position =
-                        *corners[pole.course.to as usize].get_or_insert(face.surface.net[points[0]]);
-                    points.into_iter().for_each(|at| face.surface.net[at] = position);
-                }
+                // A pole is one point of the cap, bit for bit, and the cap says where it is.
                 continue;
             };
             for (v, at) in [(first.course.from, points[0]), (last.course.to, points[points.len() - 1])] {

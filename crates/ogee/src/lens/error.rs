@@ -2,6 +2,7 @@
 
 use super::polar_error::PolarError;
 use crate::mesh::{FaceId, TopologyError, VertexId};
+use crate::refine::TooDeep;
 
 /// Something near a lens vertex, a pair or a pole that keeps its neighbourhood from being regular and smooth. `layer` counts
 /// from the lens, the slit or the pole: faces of layer 1 touch it, and end at the vertices of layer 1.
@@ -100,6 +101,8 @@ pub enum LensError {
     NoPartner { vertex: VertexId, why: &'static str },
     #[error(transparent)]
     Polar(#[from] PolarError),
+    #[error("refinement to make room around lenses does not fit: {0}")]
+    TooDeep(#[from] TooDeep),
 }
 
 fn after(refinements: u32) -> String {
@@ -121,6 +124,7 @@ impl LensError {
             LensError::NamedTwice { .. } => "named_twice",
             LensError::NoPartner { .. } => "no_partner",
             LensError::Polar(error) => error.code(),
+            LensError::TooDeep(_) => "too_deep",
         }
     }
 }

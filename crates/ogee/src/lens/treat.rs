@@ -172,6 +172,9 @@ impl TreatedLens {
 /// The most refinements that are taken to clear a neighbourhood.
 const MOST_STEPS: u32 = 3;
 
+/// A cage of its own, with its level and its history, costs some four times what a plain mesh does.
+const COPIES: u64 = 4;
+
 /// Sees to every lens and pole of a cage: re-meshes lenses, or puts caps in their place. Where a neighbourhood is too narrow the
 /// whole cage is refined first, three times at most.
 ///
@@ -188,7 +191,7 @@ const MOST_STEPS: u32 = 3;
 /// If the cage has defects, or something is in the way of a lens that does not give way: an edge that is sharp at the lens itself
 /// say. Poles that cannot have a cap stay as they are.
 pub fn treat(mesh: &ControlMesh, options: &Options) -> Result<Treated, LensError> {
-    treat_following(mesh, options, &[])
+    treat_following(mesh, options, &[], u64::MAX)
 }
 
 /// The same, following some edges.
@@ -196,6 +199,7 @@ pub(crate) fn treat_following(
     mesh: &ControlMesh,
     options: &Options,
     edges: &[[u32; 2]],
+    memory: u64,
 ) -> Result<Treated, LensError> {
     let mut treatment = Treatment::new(mesh, options, edges);
     let level = loop {
@@ -229,6 +233,7 @@ pub(crate) fn treat_following(
         {
             return Err(treatment.blocked(vertex, obstacle));
         }
+        level.check_depth(1, memory / COPIES)?;
         treatment.work.refine(&level);
     };
     Ok(treatment.finish(level))
