@@ -36,7 +36,7 @@ fn cages() -> Vec<(&'static str, ControlMesh)> {
         ("wing", shapes::lens()),
         ("torus with doublets", with_doublets(&shapes::torus(8, 6), 11)),
         // Caps on the poles first, then refinement for the others.
-        ("globe with doublets", with_doublets(&globe(8, 9), 40)),
+        ("globe with doublets", with_doublets(&globe(8, 9), 15)),
     ]
 }
 
