@@ -36,12 +36,18 @@ def test_the_text_is_clean(part: Converted) -> None:
     assert ogee.passes_check(part.part)
 
 
+def sides_at_poles(part: Converted) -> int:
+    """Two halves of a cap at each pole have a side that is one point: an edge that the file leaves out, and OpenCASCADE adds."""
+    paired = [lens["paired_with"] is not None for lens in part.report["lenses"] if lens["method"] == "polar"]
+    return 2 * paired.count(False) + paired.count(True)
+
+
 def test_counts_are_those_reported(part: Converted) -> None:
     model, report = part.model, part.report
     assert model.solids == report["solids"]
     assert model.shells == report["shells"]
     assert len(model.faces) == report["faces_written"]
-    assert model.count(Kind.TopAbs_EDGE) == report["edges"]
+    assert model.count(Kind.TopAbs_EDGE) == report["edges"] + sides_at_poles(part)
     assert model.count(Kind.TopAbs_VERTEX) == report["vertices"]
 
 
@@ -49,7 +55,7 @@ def test_closed_cages_become_solids(part: Converted) -> None:
     edges = part.model.edges
     assert len(edges.free) == OPEN_EDGES.get(part.cage.stem, 0)
     assert not edges.crowded
-    assert not edges.degenerate
+    assert len(edges.degenerate) == sides_at_poles(part)
     assert part.report["closed"] != is_open(part)
     assert (part.model.solids == 0) if is_open(part) else (part.model.solids >= 1)
 
