@@ -2,10 +2,12 @@
 //! that was given.
 
 mod cages;
+mod lens_cages;
 
 use std::collections::BTreeSet;
 
 use cages::noise;
+use lens_cages::globe;
 use ogee::convert::{self, ConvertError, Options, Packing, Part, to_part};
 use ogee::lens::{self, LensError, Method, Obstacle, TreatedLens};
 use ogee::mesh::{FaceVarying, FaceVaryingRule, Valence};
@@ -36,28 +38,6 @@ impl Dice {
     fn point(&mut self) -> Vec3 {
         Vec3::new((self.0)(), (self.0)(), (self.0)())
     }
-}
-
-/// Two fans of `around` triangles with `rings` circles between.
-fn globe(around: u32, rings: u32) -> ControlMesh {
-    let mut points = vec![Vec3::new(0.0, 0.0, 1.0), Vec3::new(0.0, 0.0, -1.1)];
-    for ring in 1..=rings {
-        let polar = std::f64::consts::PI * f64::from(ring) / f64::from(rings + 1);
-        for x in 0..around {
-            let angle = std::f64::consts::TAU * f64::from(x) / f64::from(around);
-            points.push(Vec3::new(polar.sin() * angle.cos(), 0.8 * polar.sin() * angle.sin(), polar.cos()));
-        }
-    }
-    let at = |ring: u32, x: u32| 2 + ring * around + x % around;
-    let mut faces = FaceList::new();
-    for x in 0..around {
-        faces.push(&[0, at(0, x), at(0, x + 1)]);
-        faces.push(&[1, at(rings - 1, x + 1), at(rings - 1, x)]);
-        for ring in 1..rings {
-            faces.push(&[at(ring - 1, x), at(ring, x), at(ring, x + 1), at(ring - 1, x + 1)]);
-        }
-    }
-    ControlMesh::new(points, faces)
 }
 
 /// A pillow: the square grid modulo `w -> -w` and the translations by `2 (width, 0)` and `2 (shift, height)`. Four lenses, and
