@@ -8,7 +8,7 @@
 use std::io::{self, BufWriter, Write};
 
 use ogee::convert::Part;
-use ogee::nurbs::{FaceAddress, KnotVector, NurbsSurface, ShellFace};
+use ogee::nurbs::{FaceAddress, KnotVector, NurbsSurface, Quarters, ShellFace};
 use ogee::{FaceId, Grid, Vec3};
 use serde::{Deserialize, Serialize};
 
@@ -57,9 +57,13 @@ struct Record {
     #[serde(default)]
     corner: Option<u32>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    path: Option<Vec<u32>>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     faces: Option<Vec<Vec<u32>>>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     corners: Option<Vec<Vec<Option<u32>>>>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    paths: Option<Vec<Vec<Vec<u32>>>>,
     degree: [usize; 2],
     knots_u: Vec<f64>,
     knots_v: Vec<f64>,
@@ -112,15 +116,18 @@ pub fn read(text: &[u8]) -> Result<Vec<Patch>, PatchesError> {
 }
 
 fn record(face: &ShellFace) -> Record {
-    let FaceAddress { face: first, corner } = face.address();
+    let FaceAddress { face: first, corner, quarters } = face.address();
     let packed = face.quads.cells().len() > 1;
+    let deep = face.quads.cells().iter().any(|piece| piece.quarters.depth() > 0);
     let cornered = face.quads.cells().iter().any(|piece| piece.corner.is_some());
     let NurbsSurface { u, v, net } = &face.surface;
     Record {
         face: first.0,
         corner,
+        path: (deep && !packed).then(|| quarters.iter().collect()),
         faces: packed.then(|| rows(&face.quads, |piece| piece.face.0)),
         corners: (packed && cornered).then(|| rows(&face.quads, |piece| piece.corner)),
+        paths: (packed && deep).then(|| rows(&face.quads, |piece| piece.quarters.iter().collect())),
         degree: [u.degree(), v.degree()],
         knots_u: u.knots().to_vec(),
         knots_v: v.knots().to_vec(),
@@ -142,23 +149,38 @@ fn patch(record: &Record) -> Result<Patch, &'static str> {
     }
     let net = net.map(|&point| Vec3::from(point));
     let quads = match &record.faces {
-        None => Grid::from_fn(1, 1, |_, _| FaceAddress { face: FaceId(record.face), corner: record.corner }),
+        None => Grid::from_fn(1, 1, |_, _| FaceAddress {
+            face: FaceId(record.face),
+            corner: record.corner,
+            quarters: path(record.path.as_deref().unwrap_or_default()),
+        }),
         Some(faces) => {
             let faces = grid(faces).ok_or("the rows of faces differ in length")?;
             let corners = match &record.corners {
                 None => faces.map(|_| None),
                 Some(corners) => grid(corners).ok_or("the rows of corners differ in length")?,
             };
+            let paths = record.paths.as_deref().unwrap_or_default();
             if [faces.rows(), faces.cols()] != [corners.rows(), corners.cols()] {
                 return Err("there are not as many corners as faces");
             }
             Grid::from_fn(faces.rows(), faces.cols(), |i, j| FaceAddress {
                 face: FaceId(faces[(i, j)]),
                 corner: corners[(i, j)],
+                quarters: paths
+                    .get(i)
+                    .and_then(|row| row.get(j))
+                    .map(|steps| path(steps))
+                    .unwrap_or_default(),
             })
         }
     };
     Ok(Patch { surface: NurbsSurface { u, v, net }, quads })
+}
+
+/// Quarters of a quarter.
+fn path(steps: &[u32]) -> Quarters {
+    steps.iter().copied().collect()
 }
 
 /// A rectangle from its rows; `None` if it is none or empty.

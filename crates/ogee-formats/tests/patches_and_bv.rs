@@ -27,8 +27,7 @@ fn patches_read_back_bit_for_bit() {
 #[test]
 fn packed_patches_list_faces_and_corners() {
     let mut shell = sheet();
-    shell.faces[0].quads =
-        Grid::from_fn(2, 3, |i, j| FaceAddress { face: FaceId((10 * i + j) as u32), corner: None });
+    shell.faces[0].quads = Grid::from_fn(2, 3, |i, j| FaceAddress::whole(FaceId((10 * i + j) as u32)));
     let mut text = Vec::new();
     patches::write(&part(vec![ogee::convert::Body::Sheet(shell.clone())]), &mut text).unwrap();
     let value: serde_json::Value = serde_json::from_slice(&text).unwrap();

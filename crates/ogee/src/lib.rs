@@ -97,6 +97,7 @@ pub mod convert;
 mod crease;
 pub mod curve_network;
 pub mod fairing;
+pub mod g2_caps;
 pub mod lens;
 mod limit;
 pub mod math;

@@ -248,7 +248,7 @@ fn pieces_of_a_face_meet_to_second_order() {
 
 /// The places in a face of the cage that a place in a face of a cap may be, which has a frame of its own.
 fn candidates(table: &PatchTable, at: FaceAddress, inside: [f64; 2]) -> Vec<Location> {
-    let FaceAddress { face, corner } = at;
+    let FaceAddress { face, corner, .. } = at;
     let is_whole = table.locate(face, None, 0.0, 0.0).is_ok();
     (0..4)
         .map(|frame| {

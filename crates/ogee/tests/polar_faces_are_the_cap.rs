@@ -217,7 +217,7 @@ fn faces_look_to_the_side_where_circles_are_counter_clockwise() {
 fn names_that_do_not_fit_are_refused() {
     let circles = circles(6, 0.1);
     let cap = PolarCap::new(circles.each_ref().map(Vec::as_slice), POLE, PolarVariant::SixFive).unwrap();
-    let address = ogee::nurbs::FaceAddress { face: ogee::FaceId(0), corner: None };
+    let address = ogee::nurbs::FaceAddress::whole(ogee::FaceId(0));
     let circle: Vec<VertexId> = (0..6).map(VertexId).collect();
     for (vertices, rows, columns) in [(5, 2, 6), (6, 1, 6), (6, 2, 5)] {
         let replaced = Grid::from_fn(rows, columns, |_, _| address);

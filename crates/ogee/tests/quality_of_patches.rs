@@ -30,7 +30,7 @@ fn patch(face: u32, degree: usize, rows: &[[Vec3; 2]]) -> (NurbsSurface, Grid<Fa
         |degree: usize| KnotVector::new(degree, [vec![0.0; degree + 1], vec![1.0; degree + 1]].concat());
     let net = Grid::from_fn(rows.len(), 2, |i, j| rows[i][j]);
     let surface = NurbsSurface { u: knots(degree), v: knots(1), net };
-    (surface, Grid::from_fn(1, 1, |_, _| FaceAddress { face: FaceId(face), corner: None }))
+    (surface, Grid::from_fn(1, 1, |_, _| FaceAddress::whole(FaceId(face))))
 }
 
 /// Along `x` from 0, three wide in `y`: a flat square on the left and a strip on the right through the points of a

@@ -75,7 +75,7 @@ pub(crate) fn sew(cloths: Vec<Cloth>) -> Shell {
             }
             boundary.extend(uses);
         }
-        let address = FaceAddress { face: FaceId(f as u32), corner: None };
+        let address = FaceAddress::whole(FaceId(f as u32));
         shell.faces.push(ShellFace {
             surface: cloth.surface,
             boundary,

@@ -331,7 +331,7 @@ impl Source {
             let corners = halfedges.map(|h| {
                 let face = topology.face(h);
                 let whole = source.addresses[face.index()];
-                FaceAddress { corner: whole.corner.or(Some(h.0 - topology.first(face).0)), ..whole }
+                whole.quarter(h.0 - topology.first(face).0)
             });
             source.addresses = corners.collect();
             source.origins = source.origins.refined(topology);
@@ -507,15 +507,14 @@ impl<'a> Converted<'a> {
         charts.into_iter().zip(surfaces).collect()
     }
 
-    /// The piece of the cage that a quad of the base is. A quintic base that was refined has a patch per corner.
+    /// The piece of the cage that a quad of the base is. A quintic base that was refined has a patch per quarter.
     fn address(&self, source: &Source, quad: u32) -> FaceAddress {
         let whole = source.addresses[self.source_quads[quad as usize] as usize];
-        match (&self.kind, whole.corner) {
-            (Kind::Quintic, None) if self.level > 0 => {
-                FaceAddress { corner: Some(quad >> (2 * (self.level - 1)) & 3), ..whole }
-            }
-            _ => whole,
-        }
+        let steps = match self.kind {
+            Kind::Quintic => self.level,
+            Kind::Bicubic { .. } => 0,
+        };
+        (0..steps).rev().fold(whole, |piece, step| piece.quarter(quad >> (2 * step) & 3))
     }
 
     fn broken(&self) -> &[HalfedgeId] {

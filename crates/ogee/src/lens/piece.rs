@@ -23,13 +23,13 @@ fn turned([x, y]: [f64; 2]) -> [f64; 2] {
 impl Piece {
     /// A face of the first cage.
     pub(super) fn whole(face: FaceId) -> Piece {
-        Piece { address: FaceAddress { face, corner: None }, origin: [0.0; 2], along: [1.0, 0.0] }
+        Piece { address: FaceAddress::whole(face), origin: [0.0; 2], along: [1.0, 0.0] }
     }
 
     /// What the face at the corner `corner` is after a refinement; `size` is the number of corners.
     pub(super) fn child(self, corner: u32, size: u32) -> Piece {
         if size != 4 {
-            return Piece { address: FaceAddress { corner: Some(corner), ..self.address }, ..self };
+            return Piece { address: self.address.quarter(corner), ..self };
         }
         let quarter = self.seen_from(corner);
         Piece { along: quarter.along.map(|x| x / 2.0), ..quarter }

@@ -36,7 +36,7 @@ impl Rework {
     pub(super) fn new(mesh: &ControlMesh, edges: &[[u32; 2]]) -> Rework {
         let faces = (0..mesh.faces.len() as u32).map(FaceId);
         Rework {
-            addresses: faces.clone().map(|face| FaceAddress { face, corner: None }).collect(),
+            addresses: faces.clone().map(|face| FaceAddress::whole(face)).collect(),
             pieces: faces.map(|face| Some(Piece::whole(face))).collect(),
             caps: Vec::new(),
             edges: edges.iter().map(|&edge| vec![edge]).collect(),
@@ -70,7 +70,7 @@ impl Rework {
         let addresses = (0..topology.halfedge_count() as u32).map(HalfedgeId).map(|h| {
             let face = topology.face(h);
             let whole = self.addresses[face.index()];
-            FaceAddress { corner: whole.corner.or(Some(h.0 - topology.first(face).0)), ..whole }
+            whole.quarter(h.0 - topology.first(face).0)
         });
         self.addresses = addresses.collect();
         let pieces = (0..topology.halfedge_count() as u32).map(HalfedgeId).map(|h| {
@@ -170,7 +170,7 @@ impl Rework {
             }
         }
         let own = |(face, address): (usize, Option<FaceAddress>)| {
-            address.unwrap_or(FaceAddress { face: FaceId(face as u32), corner: None })
+            address.unwrap_or(FaceAddress::whole(FaceId(face as u32)))
         };
         self.addresses = addresses.into_iter().enumerate().map(own).collect();
         self.pieces = pieces;

@@ -52,7 +52,7 @@ impl<'a> TreatedSurface<'a> {
         }
         let mut surface = TreatedSurface::untreated(limit);
         for covered in &treated.covered {
-            let FaceAddress { face, corner } = covered.piece.address;
+            let FaceAddress { face, corner, .. } = covered.piece.address;
             let at = limit.table().locate(face, corner, 0.0, 0.0).ok()?;
             surface.covered.entry(at.root).or_default().push(covered.clone());
         }

@@ -11,7 +11,7 @@ mod surface;
 pub use curve::NurbsCurve;
 pub use knots::KnotVector;
 pub use quadrature::gauss;
-pub use shell::{EdgeUse, FaceAddress, Shell, ShellEdge, ShellFace, Side};
+pub use shell::{EdgeUse, FaceAddress, Quarters, Shell, ShellEdge, ShellFace, Side};
 pub use surface::NurbsSurface;
 
 pub use crate::math::SurfaceJet;

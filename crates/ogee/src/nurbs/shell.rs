@@ -68,23 +68,74 @@ pub enum Side {
     U0,
 }
 
-/// Which piece of the cage: a quad face has one (no corner); a polygon, and every face of a cage that was
-/// refined once first, has one per corner.
+/// Which piece of the cage: a whole quad, the quarter at a corner of any face, or a quarter of a quarter.
+///
+/// Every quarter is numbered by the corner it lies at, which is its own corner 0: `(0, 0)` of its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct FaceAddress {
     /// The face of the cage.
     pub face: FaceId,
     /// The corner of that face, `None` if the piece is the whole face.
     pub corner: Option<u32>,
+    /// Quarters of the quarter at that corner.
+    pub quarters: Quarters,
+}
+
+impl FaceAddress {
+    /// A whole face.
+    pub fn whole(face: FaceId) -> FaceAddress {
+        FaceAddress { face, corner: None, quarters: Quarters::default() }
+    }
+
+    /// The quarter at a corner of this piece.
+    pub fn quarter(self, corner: u32) -> FaceAddress {
+        match self.corner {
+            None => FaceAddress { corner: Some(corner), ..self },
+            Some(_) => FaceAddress { quarters: self.quarters.then(corner), ..self },
+        }
+    }
 }
 
 impl std::fmt::Display for FaceAddress {
-    /// `f12`, or `f12.3` for a corner: the name of a face in STEP.
+    /// `f12`, `f12.3` for a corner, `f12.3.0` for a quarter of that: the name of a face in STEP.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self.corner {
-            None => write!(f, "f{}", self.face),
-            Some(corner) => write!(f, "f{}.{corner}", self.face),
-        }
+        write!(f, "f{}", self.face)?;
+        self.corner.into_iter().chain(self.quarters.iter()).try_for_each(|corner| write!(f, ".{corner}"))
+    }
+}
+
+/// A way into a quad: a quarter, a quarter of that, and so on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Quarters {
+    depth: u32,
+    /// Two bits a step, the first step highest.
+    path: u64,
+}
+
+impl Quarters {
+    /// The most steps that fit.
+    pub const DEEPEST: u32 = 32;
+
+    /// One step more; beyond [`Quarters::DEEPEST`] the first ones are forgotten.
+    pub fn then(self, corner: u32) -> Quarters {
+        let depth = (self.depth + 1).min(Quarters::DEEPEST);
+        Quarters { depth, path: self.path << 2 | u64::from(corner & 3) }
+    }
+
+    /// How many steps.
+    pub fn depth(self) -> u32 {
+        self.depth
+    }
+
+    /// The corners of all steps.
+    pub fn iter(self) -> impl Iterator<Item = u32> {
+        (0..self.depth).rev().map(move |step| (self.path >> (2 * step) & 3) as u32)
+    }
+}
+
+impl FromIterator<u32> for Quarters {
+    fn from_iter<I: IntoIterator<Item = u32>>(corners: I) -> Quarters {
+        corners.into_iter().fold(Quarters::default(), Quarters::then)
     }
 }
 

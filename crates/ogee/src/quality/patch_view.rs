@@ -103,7 +103,7 @@ impl Surface for PatchView {
             (cell, x - cell as f64)
         };
         let ((i, u), (j, v)) = (within(at.u, cells.rows()), within(at.v, cells.cols()));
-        let FaceAddress { face, corner } = cells[(i, j)];
+        let FaceAddress { face, corner, .. } = cells[(i, j)];
         Address { face, corner, u, v }
     }
 }

@@ -41,9 +41,6 @@ pub fn circles(sectors: usize, shake: f64) -> [Vec<Vec3>; 3] {
 pub fn faces(cap: &PolarCap, faces: PolarFaces) -> Cap {
     let sectors = cap.sectors();
     let circle: Vec<VertexId> = (0..sectors as u32).map(VertexId).collect();
-    let replaced = Grid::from_fn(2, sectors, |k, i| FaceAddress {
-        face: FaceId((k * sectors + i) as u32),
-        corner: None,
-    });
+    let replaced = Grid::from_fn(2, sectors, |k, i| FaceAddress::whole(FaceId((k * sectors + i) as u32)));
     cap.faces(&circle, &replaced, faces).unwrap()
 }

@@ -119,10 +119,8 @@ pub(super) fn treatment(mesh: &ControlMesh, method: Method, depth: Depth) -> Res
                 let pole = pair_pole(&points(&pair.slit), &circles[0])?;
                 let cap = PolarCap::new(circles.each_ref().map(Vec::as_slice), pole, variant)?;
                 let columns = around.columns();
-                let replaced = Grid::from_fn(2, columns, |k, i| FaceAddress {
-                    face: around.disk[k * columns + i],
-                    corner: None,
-                });
+                let replaced =
+                    Grid::from_fn(2, columns, |k, i| FaceAddress::whole(around.disk[k * columns + i]));
                 let faces = cap.faces(&around.circles[1], &replaced, PolarFaces::PerSector)?.faces;
                 patches.extend(faces.into_iter().map(|face| face.surface));
                 poles.push(cap.pole());

@@ -81,7 +81,7 @@ pub(super) fn sheet(example: &Example, sheet: Sheet) -> Result<Image> {
     let mut tiles = Vec::new();
     for method in Method::ALL {
         let Some(treatment) = treatment(&example.mesh, method, Depth::DRAWN)? else { continue };
-        let address = FaceAddress { face: FaceId(0), corner: None };
+        let address = FaceAddress::whole(FaceId(0));
         let patches = treatment.patches.into_iter().map(|patch| (patch, Grid::from_fn(1, 1, |_, _| address)));
         let view = PatchView::new(patches.collect())?;
         let mut tile = render(&view, &scene)?.reduced(SAMPLES).image();
