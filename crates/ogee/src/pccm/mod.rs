@@ -19,11 +19,14 @@ mod fan;
 mod meeting;
 mod net;
 mod packing;
+mod part;
+mod plan;
 mod requirements;
 
 pub use bi5::to_quintic_patches;
 pub use fan::CornerClass;
 pub use meeting::Cap;
+pub use plan::{Group, Plan, plan};
 pub use requirements::{PccmError, Requirement, SHARPEST, least_level};
 
 pub(crate) use chart_surface::Pieces;

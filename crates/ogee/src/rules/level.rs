@@ -102,6 +102,12 @@ impl Level {
         self
     }
 
+    /// The level with other hidden faces, given in order.
+    pub(crate) fn with_hidden(mut self, hidden: Vec<FaceId>) -> Level {
+        self.hidden = hidden;
+        self
+    }
+
     /// True if curves meet somewhere.
     pub(crate) fn has_slices(&self) -> bool {
         !self.slices.is_empty()
