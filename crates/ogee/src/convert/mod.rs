@@ -14,20 +14,20 @@ mod sew;
 mod source;
 
 pub use curves::largest_distance_to_edges;
-pub use part::{Body, Method, Part, Report};
+pub use part::{Body, LevelFaces, Method, Part, Report};
 
 use crate::lens::{self, LensError};
 use crate::math::Vec3;
 use crate::mesh::{ControlMesh, FaceId, HalfedgeId, Meeting, Note, TopologyError, VertexId, notes};
 use crate::nurbs::NurbsSurface;
 use crate::patch::Adaptive;
-use crate::pccm::{self, Chart, Layer, PccmError, least_level};
+use crate::pccm::{Chart, Layer, PccmError};
 use crate::refine::TooDeep;
 use bicubic::Bicubic;
 use measure::Continuity;
 use outline::{Face, Seams};
 use quintic::Quintic;
-use source::{Source, told};
+use source::Source;
 
 /// The greatest level that [`to_part`] tries when asked for a deviation, and accepts when asked for a level.
 pub const DEEPEST_LEVEL: u32 = 6;
@@ -193,47 +193,15 @@ pub fn to_part(mesh: &ControlMesh, options: &Options) -> Result<Part, ConvertErr
     if let Some(level) = options.level.filter(|&level| level > DEEPEST_LEVEL) {
         return Err(ConvertError::LevelTooHigh { level });
     }
-    let conversion = by_level(&source, options)?;
-    Ok(finish(&source, &conversion, options, mesh))
-}
-
-/// Converts with one level for all faces, the least that will do.
-fn by_level<'a>(source: &'a Source, options: &Options) -> Result<Conversion<'a>, ConvertError> {
-    let (quads, _) = source.quads();
-    let least = match options.method {
-        Method::Pccm => least_level(quads, Layer::Second),
-        Method::PccmFirst => least_level(quads, Layer::First),
-        Method::Bi5 => Ok(pccm::Requirement { level: 0, because: "" }),
+    let construction = match options.method {
+        Method::Pccm => Construction::Bicubic(Bicubic::new(&source, Layer::Second, options)?),
+        Method::PccmFirst => Construction::Bicubic(Bicubic::new(&source, Layer::First, options)?),
+        Method::Bi5 => Construction::Quintic(Quintic::new(&source, options)?),
     };
-    let least = least.map_err(|error| told(error, &source.origins))?.level;
-    let mut level = options.level.unwrap_or(least);
-    loop {
-        check_memory(source, options, level)?;
-        let construction = match options.method {
-            Method::Pccm => Construction::Bicubic(Bicubic::new(source, Layer::Second, level)?),
-            Method::PccmFirst => Construction::Bicubic(Bicubic::new(source, Layer::First, level)?),
-            Method::Bi5 => Construction::Quintic(Quintic::new(source, level)?),
-        };
-        let deviation = construction.deviation();
-        match options.max_deviation {
-            Some(wanted) if deviation >= wanted && level < DEEPEST_LEVEL && options.level.is_none() => {
-                level += 1;
-            }
-            Some(wanted) if deviation >= wanted => {
-                return Err(ConvertError::Deviation { wanted, reached: deviation, level });
-            }
-            _ => return Ok(Conversion { construction, level, deviation }),
-        }
-    }
+    Ok(finish(&source, &construction, options, mesh))
 }
 
-/// A cage in patches, measured.
-struct Conversion<'a> {
-    construction: Construction<'a>,
-    level: u32,
-    deviation: f64,
-}
-
+/// A cage in patches.
 enum Construction<'a> {
     Bicubic(Bicubic<'a>),
     Quintic(Quintic),
@@ -247,6 +215,13 @@ struct PlacedChart {
 }
 
 impl Construction<'_> {
+    fn levels(&self) -> Vec<LevelFaces> {
+        match self {
+            Construction::Bicubic(bicubic) => bicubic.levels(),
+            Construction::Quintic(quintic) => quintic.levels(),
+        }
+    }
+
     fn deviation(&self) -> f64 {
         match self {
             Construction::Bicubic(bicubic) => bicubic.deviation(),
@@ -285,40 +260,12 @@ impl Construction<'_> {
     }
 }
 
-/// Asks whether the refined mesh and the coefficients of all patches fit.
-fn check_memory(source: &Source, options: &Options, level: u32) -> Result<(), TooDeep> {
-    let (quads, _) = source.quads();
-    quads.check_depth(level, u64::MAX)?;
-    let quads = quads.topology().face_count() as u128;
-    let bytes = |level: u32| match options.method {
-        // Coefficients as inserted, as smoothed, as surfaces; nets of all levels; the refined mesh.
-        Method::Pccm | Method::PccmFirst => {
-            let side = (1u128 << level) + 7;
-            quads * side * side * BYTES_PER_COEFFICIENT
-        }
-        Method::Bi5 => (quads << (2 * level)) * BYTES_PER_QUINTIC,
-    };
-    let memory = u128::from(options.memory.unwrap_or(u64::MAX));
-    if bytes(level) <= memory {
-        return Ok(());
-    }
-    let deepest = (0..level).rev().find(|&shallower| bytes(shallower) <= memory).unwrap_or(0);
-    Err(TooDeep { depth: level, faces: quads << (2 * level), deepest })
-}
-
-/// Measured on studded tori of 10 000 and 100 000 quads at levels 2 to 5 (82 to 148), rounded up.
-const BYTES_PER_COEFFICIENT: u128 = 160;
-
-/// Measured on Spot at levels 0 to 2, rounded up: the patch itself is a small part of it, the refined mesh that it is
-/// measured against the larger.
-const BYTES_PER_QUINTIC: u128 = 32_000;
-
 /// Share of the cube of the cage's size below which a closed part encloses nothing.
 const NO_VOLUME: f64 = 1e-12;
 
 /// Sews, sorts, measures, and moves the part back to where the cage was.
-fn finish(source: &Source, conversion: &Conversion<'_>, options: &Options, mesh: &ControlMesh) -> Part {
-    let Conversion { ref construction, level, deviation } = *conversion;
+fn finish(source: &Source, construction: &Construction<'_>, options: &Options, mesh: &ControlMesh) -> Part {
+    let (deviation, levels) = (construction.deviation(), construction.levels());
     let mut all_notes = notes(mesh);
     all_notes.extend(construction.notes());
     all_notes.extend(source.refined_for_lenses());
@@ -349,7 +296,8 @@ fn finish(source: &Source, conversion: &Conversion<'_>, options: &Options, mesh:
     let mut extent: Option<[Vec3; 2]> = None;
     let mut report = Report {
         method: options.method,
-        level,
+        level: levels.iter().map(|faces| faces.level).max().unwrap_or(0),
+        levels,
         cage_faces: source.cage_faces,
         patches: patches + cap_patches,
         lenses: source.lenses.clone(),

@@ -71,13 +71,26 @@ impl Method {
     }
 }
 
+/// How many faces were converted on a level.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LevelFaces {
+    /// 0 for faces of the cage; 1 for those of its refinement, where there are other polygons than quads.
+    pub steps: u32,
+    /// Refinements of each of these faces before the conversion.
+    pub level: u32,
+    /// How many they are, hidden ones left out.
+    pub faces: usize,
+}
+
 /// The figures of a conversion. Lengths are in the unit of the cage.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
     /// The construction.
     pub method: Method,
-    /// Refinements before the conversion.
+    /// Refinements before the conversion, the most of all faces.
     pub level: u32,
+    /// How many faces were converted on which level.
+    pub levels: Vec<LevelFaces>,
     /// Faces of the cage.
     pub cage_faces: usize,
     /// Patches before packing: one per visible quad that was converted.

@@ -1,7 +1,9 @@
 //! `Part`: the faces of a group, with as much around them as their patches depend on, as a level of their own.
 
-use super::PccmError;
-use crate::mesh::{EdgeId, FaceId, HalfedgeId, Place, VertexId};
+use super::meeting::MeetingFan;
+use super::{PccmError, meetings};
+use crate::math::Vec3;
+use crate::mesh::{EdgeId, FaceId, HalfedgeId, Note, Place, VertexId};
 use crate::patch::{Neighbourhood, with_ring};
 use crate::rules::Level;
 use std::borrow::Cow;
@@ -93,14 +95,62 @@ impl<'a> Part<'a> {
         self.refined.as_ref().unwrap_or(&self.cage)
     }
 
+    /// The points of the base from those of the whole cage.
+    pub(crate) fn points<'p>(&self, cage_points: &'p [Vec3]) -> Cow<'p, [Vec3]> {
+        let own = match &self.vertices {
+            None => Cow::Borrowed(cage_points),
+            Some(vertices) => vertices.iter().map(|v| cage_points[v.index()]).collect(),
+        };
+        if self.refined.is_none() {
+            return own;
+        }
+        let mut refined = Vec::new();
+        self.cage.child_points(&own, &mut refined);
+        Cow::Owned(refined)
+    }
+
+    /// How many quads the base has.
+    pub(crate) fn quad_count(&self) -> usize {
+        self.faces.len()
+    }
+
+    /// By quad of the base: true if it is converted.
+    pub(crate) fn is_converted(&self, quad: usize) -> bool {
+        self.converted.get(quad).copied().unwrap_or(false)
+    }
+
     /// The quads of the base that are converted, in order.
     pub(crate) fn converted(&self) -> impl Iterator<Item = FaceId> + '_ {
         (0..).zip(&self.converted).filter(|&(_, &converted)| converted).map(|(quad, _)| FaceId(quad))
     }
 
+    /// The meetings of curves all round which quads are converted.
+    pub(super) fn meetings(&self) -> Vec<MeetingFan> {
+        let mut all = meetings(self.base());
+        all.retain(|fan| fan.halfedges.iter().all(|h| self.is_converted(h.index() / 4)));
+        all
+    }
+
     /// The face of the whole that a quad is.
     pub(crate) fn face(&self, quad: FaceId) -> FaceId {
         self.faces[quad.index()]
+    }
+
+    /// The halfedges of the base along a halfedge of the whole cage, on either side of it.
+    pub(crate) fn along(&self, h: HalfedgeId) -> Vec<HalfedgeId> {
+        let topology = self.whole.topology();
+        let sides = std::iter::once(h).chain(topology.twin(h));
+        let found = sides.filter_map(|h| {
+            if self.refined.is_some() {
+                let own = self.faces.binary_search(&FaceId(h.0)).ok()? as u32;
+                let next = self.cage.topology().next(HalfedgeId(own));
+                return Some(vec![HalfedgeId(4 * own), HalfedgeId(4 * next.0 + 3)]);
+            }
+            let face = topology.face(h);
+            let own = self.faces.binary_search(&face).ok()? as u32;
+            Some(vec![HalfedgeId(4 * own + h.0 - topology.first(face).0)])
+        });
+        found.flatten().collect()
     }
 
     /// What a halfedge of a quad of the base is on the level of the whole that its faces are of.
@@ -129,6 +179,14 @@ impl<'a> Part<'a> {
             2 => old + topology.face(parent).0,
             _ => old + faces + topology.edge(topology.prev(parent)).0,
         })
+    }
+
+    /// A note about the base, told of the level of the whole that its faces are of.
+    pub(crate) fn note(&self, note: Note) -> Note {
+        let Some(Place::Vertex(own)) = note.place else { return note };
+        let vertex = self.vertex(VertexId(own)).0;
+        let message = note.message.replace(&format!(" {own} "), &format!(" {vertex} "));
+        Note { message, place: Some(Place::Vertex(vertex)), ..note }
     }
 
     /// A refusal of the base, told of the whole cage.
