@@ -73,8 +73,8 @@ impl<'a> Bicubic<'a> {
         self.groups.iter().map(|converted| converted.deviation).fold(0.0, f64::max)
     }
 
-    /// How many faces are converted on each level.
-    pub(super) fn levels(&self) -> Vec<LevelFaces> {
+    /// How many faces are refined how often.
+    pub(super) fn faces_by_level(&self) -> Vec<LevelFaces> {
         let mut levels: Vec<LevelFaces> = Vec::new();
         for Converted { group: Group { steps, level, .. }, patches, .. } in &self.groups {
             let faces =

@@ -215,10 +215,10 @@ struct PlacedChart {
 }
 
 impl Construction<'_> {
-    fn levels(&self) -> Vec<LevelFaces> {
+    fn faces_by_level(&self) -> Vec<LevelFaces> {
         match self {
-            Construction::Bicubic(bicubic) => bicubic.levels(),
-            Construction::Quintic(quintic) => quintic.levels(),
+            Construction::Bicubic(bicubic) => bicubic.faces_by_level(),
+            Construction::Quintic(quintic) => quintic.faces_by_level(),
         }
     }
 
@@ -265,7 +265,7 @@ const NO_VOLUME: f64 = 1e-12;
 
 /// Sews, sorts, measures, and moves the part back to where the cage was.
 fn finish(source: &Source, construction: &Construction<'_>, options: &Options, mesh: &ControlMesh) -> Part {
-    let (deviation, levels) = (construction.deviation(), construction.levels());
+    let (deviation, faces_by_level) = (construction.deviation(), construction.faces_by_level());
     let mut all_notes = notes(mesh);
     all_notes.extend(construction.notes());
     all_notes.extend(source.refined_for_lenses());
@@ -296,8 +296,8 @@ fn finish(source: &Source, construction: &Construction<'_>, options: &Options, m
     let mut extent: Option<[Vec3; 2]> = None;
     let mut report = Report {
         method: options.method,
-        level: levels.iter().map(|faces| faces.level).max().unwrap_or(0),
-        levels,
+        level: faces_by_level.iter().map(|faces| faces.level).max().unwrap_or(0),
+        faces_by_level,
         cage_faces: source.cage_faces,
         patches: patches + cap_patches,
         lenses: source.lenses.clone(),

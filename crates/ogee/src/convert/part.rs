@@ -89,8 +89,8 @@ pub struct Report {
     pub method: Method,
     /// Refinements before the conversion, the most of all faces.
     pub level: u32,
-    /// How many faces were converted on which level.
-    pub levels: Vec<LevelFaces>,
+    /// How many faces were refined how often before the conversion; by steps, then by level.
+    pub faces_by_level: Vec<LevelFaces>,
     /// Faces of the cage.
     pub cage_faces: usize,
     /// Patches before packing: one per visible quad that was converted.

@@ -66,8 +66,8 @@ impl Quintic {
         self.deviation
     }
 
-    /// How many faces are converted on each level.
-    pub(super) fn levels(&self) -> Vec<LevelFaces> {
+    /// How many faces are refined how often.
+    pub(super) fn faces_by_level(&self) -> Vec<LevelFaces> {
         let steps = self.adaptive.levels().len() as u32 - 1 - self.level;
         let faces = self.adaptive.levels()[steps as usize].visible_faces().count();
         vec![LevelFaces { steps, level: self.level, faces }]
