@@ -4,13 +4,13 @@
 
 mod cages;
 
-use cages::{chaikin, creased, shaken, sharp_at};
+use cages::{chaikin, creased, shaken, sharp_at, with_boundary, with_holes};
 use ogee::convert::{Body, Options, Packing, Part, to_part};
 use ogee::nurbs::Shell;
 use ogee::pccm::{
     self, Group, Layer, Patches, PccmError, Plan, least_level, plan, to_group_patches, to_patches,
 };
-use ogee::{ControlMesh, FaceId, FaceList, Grid, HalfedgeId, Level, Topology, Vec3, shapes};
+use ogee::{Boundary, ControlMesh, FaceId, FaceList, Grid, HalfedgeId, Level, Topology, Vec3, shapes};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A sheet of 10 000 faces, all quads but one triangle: one edge of its boundary is a point.
@@ -173,6 +173,10 @@ fn mixed() -> Vec<(&'static str, ControlMesh)> {
     // Along row 6 of thirteen vertices each.
     let crease = || creased(grid(), &row(81, 3), 4.0);
     let bent = |mesh: ControlMesh| creased(creased(mesh, &row(81, 2), 4.4), &[[83, 96], [96, 109]], 2.3);
+    // With Chaikin's rule the edge in the middle stays sharp for the sake of both of its neighbours.
+    let uneven = |mesh: ControlMesh| {
+        creased(creased(creased(mesh, &row(81, 1), 3.0), &row(82, 1), 0.8), &row(83, 1), 4.4)
+    };
     let studs = || shaken(shapes::studded_torus(16, 12, 4), 0.05);
     let stud = studs();
     let edge = |f: usize| -> [u32; 2] { [stud.faces.face(f)[0], stud.faces.face(f)[1]] };
@@ -193,10 +197,17 @@ fn mixed() -> Vec<(&'static str, ControlMesh)> {
         ("bent crease", bent(grid())),
         ("Chaikin crease", chaikin(crease())),
         ("bent Chaikin crease", chaikin(bent(grid()))),
+        ("uneven Chaikin crease", chaikin(uneven(grid()))),
+        ("meeting beside a crease", creased(cages::meeting(grid(), 84, 85, 0.4), &row(99, 2), 4.0)),
+        ("meeting across a crease", creased(cages::meeting(grid(), 84, 97, 0.6), &row(99, 2), 4.0)),
         ("semi-sharp corner", sharp_at(grid(), &[84], 3.5)),
         ("crease on studs", creased(studs(), &[edge(3), edge(40)], 3.0)),
         ("two triangles", cut.clone()),
         ("two triangles, crease", creased(cut.clone(), &row(44, 3), 4.0)),
+        ("two triangles, cone", sharp_at(cut.clone(), &[72], 10.0)),
+        ("two triangles, corner of creases", creased(cut.clone(), &[[71, 72], [72, 73]], 10.0)),
+        ("two triangles, holes", with_holes(cut.clone(), &[54, 65, 66])),
+        ("two triangles, boundary left out", with_boundary(cut.clone(), Boundary::None)),
         ("two triangles, crease through them", creased(cut, &[[70, 71], [71, 84]], 4.0)),
     ]
 }
@@ -215,6 +226,7 @@ fn is_sewn(name: &str, part: &Part) {
 
 /// Every face of the cage is in the part once, whole or with all of its corners.
 fn is_whole(name: &str, mesh: &ControlMesh, part: &Part) {
+    let cage = Level::new(mesh).unwrap();
     let mut corners: BTreeMap<u32, Vec<Option<u32>>> = BTreeMap::new();
     for face in shells(part).flat_map(|shell| &shell.faces) {
         for address in face.quads.cells() {
@@ -223,6 +235,10 @@ fn is_whole(name: &str, mesh: &ControlMesh, part: &Part) {
     }
     for (f, face) in (0..).zip(mesh.faces.iter()) {
         let mut found = corners.remove(&f).unwrap_or_default();
+        if !cage.is_visible(FaceId(f)) {
+            assert!(found.is_empty(), "{name}: face {f} is a hole");
+            continue;
+        }
         found.sort_unstable();
         let split: Vec<Option<u32>> = (0..face.len() as u32).map(Some).collect();
         assert!(found == [None] || found == split, "{name}: face {f}: {found:?}");
@@ -345,7 +361,13 @@ fn renumbered(mesh: &ControlMesh) -> (ControlMesh, Vec<u32>) {
     }
     let mut other = ControlMesh { faces, ..mesh.clone() };
     other.points = vertices.iter().map(|&v| mesh.points[v as usize]).collect();
+    let moved = |f: &mut u32| *f = order.iter().position(|&old| old == *f).unwrap() as u32;
+    other.holes.iter_mut().for_each(moved);
     other.creases.iter_mut().for_each(|crease| crease.vertices = crease.vertices.map(|v| place[v as usize]));
+    for meeting in &mut other.meetings {
+        meeting.vertex = place[meeting.vertex as usize];
+        meeting.ports.iter_mut().for_each(|port| *port = place[*port as usize]);
+    }
     other.corners.iter_mut().for_each(|corner| corner.vertex = place[corner.vertex as usize]);
     (other, order)
 }
