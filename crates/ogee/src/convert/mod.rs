@@ -4,6 +4,8 @@
 
 mod bicubic;
 mod bodies;
+mod cap_deviation;
+mod curvature;
 mod curves;
 mod deviation;
 mod measure;
@@ -14,7 +16,7 @@ mod sew;
 mod source;
 
 pub use curves::largest_distance_to_edges;
-pub use part::{Body, Method, Part, Report};
+pub use part::{Body, Method, Node, NodeKind, Part, Report};
 
 use crate::lens::{self, LensError};
 use crate::math::Vec3;
@@ -24,6 +26,7 @@ use crate::patch::Adaptive;
 use crate::pccm::{self, Chart, Layer, PccmError, least_level};
 use crate::refine::TooDeep;
 use bicubic::Bicubic;
+use curvature::Curvature;
 use measure::Continuity;
 use outline::{Face, Seams};
 use quintic::Quintic;
@@ -193,7 +196,10 @@ pub fn to_part(mesh: &ControlMesh, options: &Options) -> Result<Part, ConvertErr
     if let Some(level) = options.level.filter(|&level| level > DEEPEST_LEVEL) {
         return Err(ConvertError::LevelTooHigh { level });
     }
-    let conversion = by_level(&source, options)?;
+    let conversion = match options.method {
+        Method::G2 => Conversion::with_caps(Curvature::new(&source, options)?),
+        Method::Pccm | Method::PccmFirst | Method::Bi5 => by_level(&source, options)?,
+    };
     Ok(finish(&source, &conversion, options, mesh))
 }
 
@@ -203,7 +209,7 @@ fn by_level<'a>(source: &'a Source, options: &Options) -> Result<Conversion<'a>,
     let least = match options.method {
         Method::Pccm => least_level(quads, Layer::Second),
         Method::PccmFirst => least_level(quads, Layer::First),
-        Method::Bi5 => Ok(pccm::Requirement { level: 0, because: "" }),
+        Method::Bi5 | Method::G2 => Ok(pccm::Requirement { level: 0, because: "" }),
     };
     let least = least.map_err(|error| told(error, &source.origins))?.level;
     let mut level = options.level.unwrap_or(least);
@@ -213,6 +219,7 @@ fn by_level<'a>(source: &'a Source, options: &Options) -> Result<Conversion<'a>,
             Method::Pccm => Construction::Bicubic(Bicubic::new(source, Layer::Second, level)?),
             Method::PccmFirst => Construction::Bicubic(Bicubic::new(source, Layer::First, level)?),
             Method::Bi5 => Construction::Quintic(Quintic::new(source, level)?),
+            Method::G2 => Construction::Curvature(Curvature::new(source, options)?),
         };
         let deviation = construction.deviation();
         match options.max_deviation {
@@ -237,6 +244,17 @@ struct Conversion<'a> {
 enum Construction<'a> {
     Bicubic(Bicubic<'a>),
     Quintic(Quintic),
+    Curvature(Curvature<'a>),
+}
+
+impl<'a> Conversion<'a> {
+    fn with_caps(curvature: Curvature<'a>) -> Conversion<'a> {
+        Conversion {
+            level: (curvature.adaptive().levels().len() - 1) as u32,
+            deviation: curvature.deviation(),
+            construction: Construction::Curvature(curvature),
+        }
+    }
 }
 
 /// A chart of a level of refinement, with its surface, one unit of knot per quad.
@@ -251,6 +269,7 @@ impl Construction<'_> {
         match self {
             Construction::Bicubic(bicubic) => bicubic.deviation(),
             Construction::Quintic(quintic) => quintic.deviation(),
+            Construction::Curvature(curvature) => curvature.deviation(),
         }
     }
 
@@ -258,6 +277,7 @@ impl Construction<'_> {
         match self {
             Construction::Bicubic(bicubic) => bicubic.adaptive(),
             Construction::Quintic(quintic) => quintic.adaptive(),
+            Construction::Curvature(curvature) => curvature.adaptive(),
         }
     }
 
@@ -265,6 +285,7 @@ impl Construction<'_> {
         match self {
             Construction::Bicubic(bicubic) => bicubic.charts(packing),
             Construction::Quintic(quintic) => quintic.charts(),
+            Construction::Curvature(curvature) => curvature.charts(packing),
         }
     }
 
@@ -272,6 +293,7 @@ impl Construction<'_> {
     fn broken(&self) -> Vec<(usize, HalfedgeId)> {
         match self {
             Construction::Bicubic(bicubic) => bicubic.broken(),
+            Construction::Curvature(curvature) => curvature.broken(),
             Construction::Quintic(_) => Vec::new(),
         }
     }
@@ -280,6 +302,7 @@ impl Construction<'_> {
     fn notes(&self) -> Vec<Note> {
         match self {
             Construction::Bicubic(bicubic) => bicubic.notes(),
+            Construction::Curvature(curvature) => curvature.notes(),
             Construction::Quintic(_) => Vec::new(),
         }
     }
