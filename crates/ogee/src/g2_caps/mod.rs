@@ -7,11 +7,13 @@
 mod apply;
 mod class;
 mod columns;
+mod site;
 mod tables;
 mod weights;
 
 pub use apply::{knots, nets};
 pub use class::{CapClass, CornerAngle};
+pub use site::{Obstacle, Site, cap_points, site};
 pub use tables::{encode, is_solvable, shipped_classes, table_name, weights};
 pub use weights::Weights;
 
