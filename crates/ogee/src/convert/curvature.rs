@@ -135,7 +135,8 @@ impl<'a> Curvature<'a> {
         let cells = Cells::new(&base, &base, 0);
         let surfaces = par::map(charts.len(), |chart| bicubic(&cells, &charts[chart], &around.points));
         let placed = |(chart, surface): (Chart, NurbsSurface)| {
-            let quads = chart.quads.map(|placed| Placed { quad: around.faces[placed.quad as usize].0, ..*placed });
+            let quads =
+                chart.quads.map(|placed| Placed { quad: around.faces[placed.quad as usize].0, ..*placed });
             PlacedChart { level: number, chart: Chart { quads }, surface }
         };
         charts.into_iter().zip(surfaces).map(placed).collect()

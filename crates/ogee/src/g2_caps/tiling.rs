@@ -66,17 +66,6 @@ impl Tiling {
         }
         Ok(tiling)
     }
-
-    /// All faces of a level that are part of the tiling.
-    pub(crate) fn faces(&self, number: usize) -> impl Iterator<Item = FaceId> + '_ {
-        let level = &self.adaptive.levels()[number];
-        let topology = level.level.topology();
-        let caps = self.caps.iter().filter(move |cap| cap.level == number).map(|cap| &cap.site.halfedges);
-        let others = self.uncapped.iter().filter(move |sector| sector.level == number);
-        let fans = caps.chain(others.map(|sector| &sector.halfedges));
-        let in_fans = fans.flatten().map(move |&h| topology.face(h)).filter(|&face| level.is_visible(face));
-        self.regular[number].iter().copied().chain(in_fans)
-    }
 }
 
 /// What is found on a level.
