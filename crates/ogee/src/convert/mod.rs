@@ -4,6 +4,8 @@
 
 mod bicubic;
 mod bodies;
+mod cap_deviation;
+mod curvature;
 mod curves;
 mod deviation;
 mod measure;
@@ -14,20 +16,22 @@ mod sew;
 mod source;
 
 pub use curves::largest_distance_to_edges;
-pub use part::{Body, LevelFaces, Method, Part, Report};
+pub use part::{Body, LevelFaces, Method, Node, NodeKind, Part, Report};
 
+use crate::g2_caps;
 use crate::lens::{self, LensError};
 use crate::math::Vec3;
 use crate::mesh::{ControlMesh, FaceId, HalfedgeId, Meeting, Note, TopologyError, VertexId, notes};
 use crate::nurbs::NurbsSurface;
 use crate::patch::Adaptive;
-use crate::pccm::{Chart, Layer, PccmError};
+use crate::pccm::{self, Chart, Layer, PccmError};
 use crate::refine::TooDeep;
 use bicubic::Bicubic;
+use curvature::Curvature;
 use measure::Continuity;
 use outline::{Face, Seams};
 use quintic::Quintic;
-use source::Source;
+use source::{Source, told};
 
 /// The greatest level that [`to_part`] tries when asked for a deviation, and accepts when asked for a level.
 pub const DEEPEST_LEVEL: u32 = 6;
@@ -99,6 +103,9 @@ pub enum ConvertError {
     /// Something is in the way of a vertex of valence 2.
     #[error(transparent)]
     Lens(LensError),
+    /// What refinement should have cured, and did not.
+    #[error(transparent)]
+    Obstacle(#[from] g2_caps::Obstacle),
     /// The quintic method is for cages without a boundary, and a cap leaves one.
     #[error(
         "bi5 has no patches beside caps, as around vertex {vertex}; use the method pccm, or merge its lens"
@@ -159,6 +166,7 @@ impl ConvertError {
             ConvertError::Topology(error) => error.defects[0].code(),
             ConvertError::Pccm(error) => error.code(),
             ConvertError::Lens(error) => error.code(),
+            ConvertError::Obstacle(error) => error.code(),
             ConvertError::Cap { .. } => "cap",
             ConvertError::Meeting { .. } => "meeting",
             ConvertError::Seam { .. } => "seam",
@@ -197,6 +205,11 @@ pub fn to_part(mesh: &ControlMesh, options: &Options) -> Result<Part, ConvertErr
         Method::Pccm => Construction::Bicubic(Bicubic::new(&source, Layer::Second, options)?),
         Method::PccmFirst => Construction::Bicubic(Bicubic::new(&source, Layer::First, options)?),
         Method::Bi5 => Construction::Quintic(Quintic::new(&source, options)?),
+        Method::G2 => {
+            // What has no patch has no cap either.
+            pccm::plan(source.cage(), Layer::Second, None).map_err(|error| told(error, &source.origins))?;
+            Construction::Curvature(Curvature::new(&source, options)?)
+        }
     };
     Ok(finish(&source, &construction, options, mesh))
 }
@@ -205,6 +218,7 @@ pub fn to_part(mesh: &ControlMesh, options: &Options) -> Result<Part, ConvertErr
 enum Construction<'a> {
     Bicubic(Bicubic<'a>),
     Quintic(Quintic),
+    Curvature(Curvature<'a>),
 }
 
 /// A chart of a level of refinement, with its surface, one unit of knot per quad.
@@ -219,6 +233,17 @@ impl Construction<'_> {
         match self {
             Construction::Bicubic(bicubic) => bicubic.faces_by_level(),
             Construction::Quintic(quintic) => quintic.faces_by_level(),
+            Construction::Curvature(_) => Vec::new(),
+        }
+    }
+
+    /// The most refinements of a face.
+    fn level(&self) -> u32 {
+        match self {
+            Construction::Bicubic(_) | Construction::Quintic(_) => {
+                self.faces_by_level().iter().map(|faces| faces.level).max().unwrap_or(0)
+            }
+            Construction::Curvature(curvature) => (curvature.adaptive().levels().len() - 1) as u32,
         }
     }
 
@@ -226,6 +251,7 @@ impl Construction<'_> {
         match self {
             Construction::Bicubic(bicubic) => bicubic.deviation(),
             Construction::Quintic(quintic) => quintic.deviation(),
+            Construction::Curvature(curvature) => curvature.deviation(),
         }
     }
 
@@ -233,6 +259,7 @@ impl Construction<'_> {
         match self {
             Construction::Bicubic(bicubic) => bicubic.adaptive(),
             Construction::Quintic(quintic) => quintic.adaptive(),
+            Construction::Curvature(curvature) => curvature.adaptive(),
         }
     }
 
@@ -240,6 +267,14 @@ impl Construction<'_> {
         match self {
             Construction::Bicubic(bicubic) => bicubic.charts(packing),
             Construction::Quintic(quintic) => quintic.charts(),
+            Construction::Curvature(curvature) => curvature.charts(packing),
+        }
+    }
+
+    fn nodes(&self) -> &[Node] {
+        match self {
+            Construction::Curvature(curvature) => curvature.nodes(),
+            Construction::Bicubic(_) | Construction::Quintic(_) => &[],
         }
     }
 
@@ -247,6 +282,7 @@ impl Construction<'_> {
     fn broken(&self) -> Vec<(usize, HalfedgeId)> {
         match self {
             Construction::Bicubic(bicubic) => bicubic.broken(),
+            Construction::Curvature(curvature) => curvature.broken(),
             Construction::Quintic(_) => Vec::new(),
         }
     }
@@ -255,6 +291,7 @@ impl Construction<'_> {
     fn notes(&self) -> Vec<Note> {
         match self {
             Construction::Bicubic(bicubic) => bicubic.notes(),
+            Construction::Curvature(curvature) => curvature.notes(),
             Construction::Quintic(_) => Vec::new(),
         }
     }
@@ -265,7 +302,7 @@ const NO_VOLUME: f64 = 1e-12;
 
 /// Sews, sorts, measures, and moves the part back to where the cage was.
 fn finish(source: &Source, construction: &Construction<'_>, options: &Options, mesh: &ControlMesh) -> Part {
-    let (deviation, faces_by_level) = (construction.deviation(), construction.faces_by_level());
+    let deviation = construction.deviation();
     let mut all_notes = notes(mesh);
     all_notes.extend(construction.notes());
     all_notes.extend(source.refined_for_lenses());
@@ -275,7 +312,11 @@ fn finish(source: &Source, construction: &Construction<'_>, options: &Options, m
         sewing.divide(*level, chart.quads.cells().iter().map(|placed| FaceId(placed.quad)));
     }
     construction.broken().into_iter().for_each(|(level, h)| sewing.break_at(level, h));
-    let patches: usize = charts.iter().map(|placed| placed.chart.quads.cells().len()).sum();
+    let mut levels = vec![0; construction.adaptive().levels().len()];
+    for PlacedChart { level, chart, .. } in &charts {
+        levels[*level] += chart.quads.cells().len();
+    }
+    let patches: usize = levels.iter().sum();
     let face = |PlacedChart { level, chart, surface }| sewing.chart(level, &chart, surface);
     let mut faces: Vec<Face> = charts.into_iter().map(face).collect();
     let charts = faces.len();
@@ -296,10 +337,12 @@ fn finish(source: &Source, construction: &Construction<'_>, options: &Options, m
     let mut extent: Option<[Vec3; 2]> = None;
     let mut report = Report {
         method: options.method,
-        level: faces_by_level.iter().map(|faces| faces.level).max().unwrap_or(0),
-        faces_by_level,
+        level: construction.level(),
+        faces_by_level: construction.faces_by_level(),
         cage_faces: source.cage_faces,
         patches: patches + cap_patches,
+        levels,
+        nodes: construction.nodes().to_vec(),
         lenses: source.lenses.clone(),
         lens_steps: source.steps,
         max_deviation: deviation,

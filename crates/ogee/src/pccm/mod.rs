@@ -31,17 +31,17 @@ pub use meeting::Cap;
 pub use plan::{Group, Plan, plan};
 pub use requirements::{PccmError, Requirement, SHARPEST, least_level};
 
+pub(crate) use chart_surface::Pieces;
 pub(crate) use group::Converted;
 pub(crate) use meeting::{CAP_CELLS, meetings};
-pub(crate) use net::{Cells, view};
-pub(crate) use packing::{Chart, Placed, curves, unpacked};
+pub(crate) use net::{Cells, inserted, view};
+pub(crate) use packing::{Chart, Placed, curves, pack, unpacked};
 pub(crate) use part::Part;
 
 use crate::math::{Grid, Vec3, par};
 use crate::mesh::{FaceId, HalfedgeId, Note, Place, VertexId};
 use crate::nurbs::KnotVector;
 use crate::rules::Level;
-use chart_surface::Pieces;
 use edge::FarEnd;
 use fan::{Arrays, Fan};
 use meeting::MeetingFan;
