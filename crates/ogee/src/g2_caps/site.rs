@@ -253,7 +253,7 @@ fn are_quads(level: &Level, vertex: VertexId, halfedges: &[HalfedgeId]) -> Resul
 }
 
 /// The surface around a face's corner, given by the halfedge that leaves it, is bicubic.
-fn is_regular(level: &Level, vertex: VertexId, corner: HalfedgeId) -> Result<(), Obstacle> {
+pub(super) fn is_regular(level: &Level, vertex: VertexId, corner: HalfedgeId) -> Result<(), Obstacle> {
     let other = level.topology().origin(corner);
     for sector in level.sectors(other) {
         let halfedges: Vec<HalfedgeId> = level.sector_halfedges(sector).collect();
