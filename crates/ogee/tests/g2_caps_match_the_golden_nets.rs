@@ -70,16 +70,16 @@ fn samples_match() {
             let jet = surface.jet(number(&sample["u"]), number(&sample["v"]));
             let curvature = jet.curvature().unwrap();
             let (mean, gauss) = (number(&sample["H"]), number(&sample["K"]));
-            for (difference, unit) in [
-                (jet.position.distance(point(&sample["S"])), size),
-                (jet.normal().unwrap().distance(point(&sample["N"])), 1.0),
-                (curvature.mean - mean, mean.abs().max(1.0 / size)),
-                (curvature.gauss - gauss, gauss.abs().max(1.0 / (size * size))),
+            for (difference, allowed) in [
+                (jet.position.distance(point(&sample["S"])), 1e-11 * size),
+                (jet.normal().unwrap().distance(point(&sample["N"])), 1e-10),
+                (curvature.mean - mean, 1e-9 * mean.abs().max(1.0 / size)),
+                (curvature.gauss - gauss, 1e-9 * gauss.abs().max(1.0 / (size * size))),
             ] {
-                worst = worst.max(difference.abs() / unit);
+                worst = worst.max(difference.abs() / allowed);
             }
         }
-        println!("{name}: {worst:e}");
-        assert!(worst <= 1e-11, "{name}: {worst:e}");
+        println!("{name}: {worst:e} of what is allowed");
+        assert!(worst <= 1.0, "{name}: {worst:e}");
     }
 }

@@ -130,6 +130,16 @@ impl Obstacle {
             | Obstacle::TooManyFaces { .. } => false,
         }
     }
+
+    /// Greater where more has to happen before the obstacle is gone.
+    fn gravity(&self) -> u32 {
+        match self {
+            Obstacle::NotSeparated { .. } => 0,
+            Obstacle::NotQuad { .. } => 1,
+            Obstacle::SemiSharp { .. } => 2,
+            _ => 3,
+        }
+    }
 }
 
 /// What a sector is to caps, from the infinitely sharp edges and the tag of its vertex.
@@ -198,10 +208,12 @@ pub fn site(
         return Err(Obstacle::TooManyFaces { vertex, faces });
     }
     are_quads(level, vertex, &halfedges)?;
-    for &h in &halfedges {
-        for corner in topology.halfedges(topology.face(h)).filter(|&corner| corner != h) {
-            is_regular(level, vertex, corner)?;
-        }
+    let corners =
+        halfedges.iter().flat_map(|&h| topology.halfedges(topology.face(h)).filter(move |&c| c != h));
+    // The gravest one, so that the answer does not depend on where the vertex's faces are counted from.
+    let obstacles = corners.filter_map(|corner| is_regular(level, vertex, corner).err());
+    if let Some(obstacle) = obstacles.max_by_key(Obstacle::gravity) {
+        return Err(obstacle);
     }
     let class = match class {
         CapClass::Corner { faces, .. } => {
