@@ -199,7 +199,7 @@ fn mixed() -> Vec<(&'static str, ControlMesh)> {
         ("bent Chaikin crease", chaikin(bent(grid()))),
         ("uneven Chaikin crease", chaikin(uneven(grid()))),
         ("meeting beside a crease", creased(cages::meeting(grid(), 84, 85, 0.4), &row(99, 2), 4.0)),
-        ("meeting across a crease", creased(cages::meeting(grid(), 84, 97, 0.6), &row(99, 2), 4.0)),
+        ("meeting across a crease", creased(cages::meeting(grid(), 84, 97, 0.3), &row(99, 2), 4.0)),
         ("semi-sharp corner", sharp_at(grid(), &[84], 3.5)),
         ("crease on studs", creased(studs(), &[edge(3), edge(40)], 3.0)),
         ("two triangles", cut.clone()),
@@ -398,7 +398,14 @@ fn numbers_do_not_matter() {
         };
         let (first, second) = (report(&mesh), report(&other));
         assert_eq!(first.faces_by_level, second.faces_by_level, "{name}");
-        assert!((first.area - second.area).abs() <= 1e-12 * first.area, "{name}");
-        assert!((first.max_deviation - second.max_deviation).abs() <= 1e-12, "{name}");
+        assert!(
+            (first.area - second.area).abs() <= 1e-12 * first.area,
+            "{name}: {} {}",
+            first.area,
+            second.area
+        );
+        // Closest points are sought until no more than a millionth of the distance is to be won.
+        let [a, b] = [&first, &second].map(|report| report.max_deviation);
+        assert!((a - b).abs() <= 1e-5 * a, "{name}: {a:e} {b:e}");
     }
 }
