@@ -94,8 +94,7 @@ impl<'a> Bicubic<'a> {
     }
 
     pub(super) fn charts(&self, packing: Packing) -> Vec<PlacedChart> {
-        let mut seams = self.source.seams(&self.adaptive, 0);
-        seams.extend(pccm::curves(self.source.cage()));
+        let seams = self.source.seams(&self.adaptive, 0);
         let mut charts = Vec::new();
         for Converted { group, patches, .. } in &self.groups {
             let of_group = match packing {

@@ -24,14 +24,14 @@ use crate::math::Vec3;
 use crate::mesh::{ControlMesh, FaceId, HalfedgeId, Meeting, Note, TopologyError, VertexId, notes};
 use crate::nurbs::NurbsSurface;
 use crate::patch::Adaptive;
-use crate::pccm::{self, Chart, Layer, PccmError};
+use crate::pccm::{Chart, Layer, PccmError};
 use crate::refine::TooDeep;
 use bicubic::Bicubic;
 use curvature::Curvature;
 use measure::Continuity;
 use outline::{Face, Seams};
 use quintic::Quintic;
-use source::{Source, told};
+use source::Source;
 
 /// The greatest level that [`to_part`] tries when asked for a deviation, and accepts when asked for a level.
 pub const DEEPEST_LEVEL: u32 = 6;
@@ -205,11 +205,7 @@ pub fn to_part(mesh: &ControlMesh, options: &Options) -> Result<Part, ConvertErr
         Method::Pccm => Construction::Bicubic(Bicubic::new(&source, Layer::Second, options)?),
         Method::PccmFirst => Construction::Bicubic(Bicubic::new(&source, Layer::First, options)?),
         Method::Bi5 => Construction::Quintic(Quintic::new(&source, options)?),
-        Method::G2 => {
-            // What has no patch has no cap either.
-            pccm::plan(source.cage(), Layer::Second, None).map_err(|error| told(error, &source.origins))?;
-            Construction::Curvature(Curvature::new(&source, options)?)
-        }
+        Method::G2 => Construction::Curvature(Curvature::new(&source, options)?),
     };
     Ok(finish(&source, &construction, options, mesh))
 }
@@ -233,17 +229,15 @@ impl Construction<'_> {
         match self {
             Construction::Bicubic(bicubic) => bicubic.faces_by_level(),
             Construction::Quintic(quintic) => quintic.faces_by_level(),
-            Construction::Curvature(_) => Vec::new(),
+            Construction::Curvature(curvature) => curvature.faces_by_level(),
         }
     }
 
-    /// The most refinements of a face.
     fn level(&self) -> u32 {
+        let greatest = |of: fn(&LevelFaces) -> u32| self.faces_by_level().iter().map(of).max().unwrap_or(0);
         match self {
-            Construction::Bicubic(_) | Construction::Quintic(_) => {
-                self.faces_by_level().iter().map(|faces| faces.level).max().unwrap_or(0)
-            }
-            Construction::Curvature(curvature) => (curvature.adaptive().levels().len() - 1) as u32,
+            Construction::Curvature(_) => greatest(|faces| faces.steps),
+            Construction::Bicubic(_) | Construction::Quintic(_) => greatest(|faces| faces.level),
         }
     }
 
@@ -302,7 +296,7 @@ const NO_VOLUME: f64 = 1e-12;
 
 /// Sews, sorts, measures, and moves the part back to where the cage was.
 fn finish(source: &Source, construction: &Construction<'_>, options: &Options, mesh: &ControlMesh) -> Part {
-    let deviation = construction.deviation();
+    let (deviation, faces_by_level) = (construction.deviation(), construction.faces_by_level());
     let mut all_notes = notes(mesh);
     all_notes.extend(construction.notes());
     all_notes.extend(source.refined_for_lenses());
@@ -312,11 +306,7 @@ fn finish(source: &Source, construction: &Construction<'_>, options: &Options, m
         sewing.divide(*level, chart.quads.cells().iter().map(|placed| FaceId(placed.quad)));
     }
     construction.broken().into_iter().for_each(|(level, h)| sewing.break_at(level, h));
-    let mut levels = vec![0; construction.adaptive().levels().len()];
-    for PlacedChart { level, chart, .. } in &charts {
-        levels[*level] += chart.quads.cells().len();
-    }
-    let patches: usize = levels.iter().sum();
+    let patches: usize = charts.iter().map(|placed| placed.chart.quads.cells().len()).sum();
     let face = |PlacedChart { level, chart, surface }| sewing.chart(level, &chart, surface);
     let mut faces: Vec<Face> = charts.into_iter().map(face).collect();
     let charts = faces.len();
@@ -338,10 +328,9 @@ fn finish(source: &Source, construction: &Construction<'_>, options: &Options, m
     let mut report = Report {
         method: options.method,
         level: construction.level(),
-        faces_by_level: construction.faces_by_level(),
+        faces_by_level,
         cage_faces: source.cage_faces,
         patches: patches + cap_patches,
-        levels,
         nodes: construction.nodes().to_vec(),
         lenses: source.lenses.clone(),
         lens_steps: source.steps,

@@ -75,17 +75,6 @@ impl Method {
     }
 }
 
-/// How many faces were converted on a level.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LevelFaces {
-    /// 0 for faces of the cage; 1 for those of its refinement, where there are other polygons than quads.
-    pub steps: u32,
-    /// Refinements of each of these faces before the conversion.
-    pub level: u32,
-    /// How many they are, hidden ones left out.
-    pub faces: usize,
-}
-
 /// An irregular vertex of a part that is curvature-continuous.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
@@ -106,6 +95,17 @@ pub enum NodeKind {
     Cap(CapClass),
     /// Patches of PCCM: tangent-continuous. A note says why.
     Smoothed,
+}
+
+/// How many faces were converted on a level.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LevelFaces {
+    /// 0 for faces of the cage, 1 for those of its refinement, and so on.
+    pub steps: u32,
+    /// Refinements of each of these faces before the conversion.
+    pub level: u32,
+    /// How many they are, hidden ones left out.
+    pub faces: usize,
 }
 
 /// The figures of a conversion. Lengths are in the unit of the cage.
@@ -154,8 +154,6 @@ pub struct Report {
     pub smooth_edges: usize,
     /// Shared edges that are not.
     pub sharp_edges: usize,
-    /// By level of refinement how many of the patches are faces of it: 0 is the cage.
-    pub levels: Vec<usize>,
     /// Of the method G2: every irregular vertex, by level.
     pub nodes: Vec<Node>,
     /// What was done at vertices of valence 2 and at poles, by vertex.

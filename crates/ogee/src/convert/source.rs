@@ -6,7 +6,7 @@ use crate::lens::{self, Cap, PolarFaces, TreatedLens};
 use crate::math::Vec3;
 use crate::mesh::{ControlMesh, HalfedgeId, Note, Place, Topology, VertexId};
 use crate::patch::Adaptive;
-use crate::pccm::PccmError;
+use crate::pccm::{self, PccmError};
 use crate::rules::Level;
 
 /// A cage made ready.
@@ -105,9 +105,15 @@ impl Source {
     pub(super) fn seams(&self, adaptive: &Adaptive, number: usize) -> Vec<HalfedgeId> {
         let topology = adaptive.levels()[0].level.topology();
         let first = self.seams.iter().filter_map(|&vertices| find_halfedge(topology, vertices));
-        let mut found: Vec<HalfedgeId> = first.collect();
+        let mut found: Vec<HalfedgeId> = first.chain(pccm::curves(self.cage())).collect();
         for number in 0..number {
-            found = found.into_iter().filter_map(|h| adaptive.halves(number, h)).flatten().collect();
+            let topology = adaptive.levels()[number].level.topology();
+            // One of its faces may have been left behind.
+            let halves = |h: HalfedgeId| {
+                let sides = std::iter::once(h).chain(topology.twin(h));
+                sides.filter_map(|h| adaptive.halves(number, h)).next()
+            };
+            found = found.into_iter().filter_map(halves).flatten().collect();
         }
         found
     }

@@ -3,7 +3,7 @@
 use super::packing::{Chart, Placed, pack, unpacked};
 use super::part::Part;
 use super::{Group, Layer, Options, Patches, PccmError, Pieces, smooth};
-use crate::math::{Vec3, par};
+use crate::math::{Grid, Vec3, par};
 use crate::mesh::{FaceId, HalfedgeId, Note};
 use crate::nurbs::NurbsSurface;
 use crate::rules::Level;
@@ -83,6 +83,15 @@ impl<'a> Converted<'a> {
 
     fn pieces(&self) -> Pieces<'_> {
         Pieces::new(self.part.base(), &self.points, &self.patches, self.layer)
+    }
+
+    /// The surfaces of the faces of halfedges of that level, as far as they are in the group: `(0, 0)` is at the halfedge's origin,
+    /// and `u` runs along it.
+    pub(crate) fn seen_from(&self, halfedges: &[HalfedgeId]) -> Vec<NurbsSurface> {
+        let pieces = self.pieces();
+        let own = halfedges.iter().filter_map(|&h| self.part.along(h).first().copied());
+        let placed = own.map(|own| Placed { quad: own.0 / 4, turn: own.0 % 4 });
+        placed.map(|placed| pieces.surface(&Chart { quads: Grid::from_fn(1, 1, |_, _| placed) })).collect()
     }
 
     /// One chart per visible face, with its surface, told of the level that the group's faces are of.

@@ -31,7 +31,6 @@ pub use meeting::Cap;
 pub use plan::{Group, Plan, plan};
 pub use requirements::{PccmError, Requirement, SHARPEST, least_level};
 
-pub(crate) use chart_surface::Pieces;
 pub(crate) use group::Converted;
 pub(crate) use meeting::{CAP_CELLS, meetings};
 pub(crate) use net::{Cells, inserted, view};
@@ -42,6 +41,7 @@ use crate::math::{Grid, Vec3, par};
 use crate::mesh::{FaceId, HalfedgeId, Note, Place, VertexId};
 use crate::nurbs::KnotVector;
 use crate::rules::Level;
+use chart_surface::Pieces;
 use edge::FarEnd;
 use fan::{Arrays, Fan};
 use meeting::MeetingFan;
