@@ -9,8 +9,8 @@ use crate::limit::limit_vertex;
 use crate::math::{Grid, par};
 use crate::mesh::{FaceId, HalfedgeId};
 use crate::nurbs::NurbsSurface;
-use crate::patch::{Adaptive, Neighbourhood, with_ring};
-use crate::pccm::{Chart, Placed};
+use crate::patch::Adaptive;
+use crate::pccm::{Chart, Part, Placed};
 use crate::refine::sub_grid;
 
 /// Steps beyond the level of a fan.
@@ -79,18 +79,15 @@ pub(super) fn of_fans(adaptive: &Adaptive, fans: &[Fan]) -> Vec<f64> {
         }
         let mut faces: Vec<FaceId> = sectors.iter().map(|&(_, _, h)| topology.face(h)).collect();
         faces.sort_unstable();
-        let faces = with_ring(&level.level, &faces);
-        let part = Neighbourhood::new(&level.level, &faces);
-        let (mut fine, mut nodes) = part.level.refine_points(&part.take(&level.points));
+        let part = Part::new(&level.level, 0, &faces);
+        let (mut fine, mut nodes) = part.base().refine_points(&part.points(&level.points));
         for _ in 1..STEPS_BEYOND {
             (fine, nodes) = fine.refine_points(&nodes);
         }
         let found = par::map(sectors.len(), |number| {
             let (fan, sector, h) = sectors[number];
-            let face = topology.face(h);
-            let Ok(own) = faces.binary_search(&face) else { return 0.0 };
-            let turn = h.0 - topology.first(face).0;
-            let grid = sub_grid(&fine, own as u32, (4 - turn) % 4, STEPS_BEYOND);
+            let Some(own) = part.along(h).first().copied() else { return 0.0 };
+            let grid = sub_grid(&fine, own.0 / 4, (4 - own.0 % 4) % 4, STEPS_BEYOND);
             let limit = grid.map(|&node| limit_vertex(&fine, &nodes, node).position);
             let cells = (limit.rows() - 1) as f64;
             let mut worst: f64 = 0.0;
