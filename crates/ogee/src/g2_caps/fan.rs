@@ -55,7 +55,7 @@ pub(super) struct Fan<T> {
     /// The angle of a sector in the plane of the natural configuration.
     pub(super) angle: f64,
     /// How many edges have points of their own.
-    edges: usize,
+    pub(super) edges: usize,
     /// How much of the vertex itself there is: none in a Fourier mode that turns.
     middle: T,
     /// What the sectors are times after -1, 0, 1, 2 times round.

@@ -22,13 +22,14 @@ const MOST_OPEN: usize = 12;
 pub fn generate(class: CapClass) -> Option<Weights> {
     let class = admissible(class)?;
     let angle = class.sector_angle();
-    let energy = energy::planar(&planar_map::of_sectors(angle)?)?;
+    let energies =
+        planar_map::of_class(class)?.iter().map(|map| energy::planar(map)).collect::<Option<Vec<_>>>()?;
     let sectors = if class.is_closed() {
-        let mode = |k| Some(solve(&Fan::mode(angle, angle * k as f64).system(), &energy)?.coefficients);
+        let mode = |k| Some(solve(&Fan::mode(angle, angle * k as f64).system(), &energies)?.coefficients);
         let modes = par::map(class.sectors() / 2 + 1, mode);
         vec![interior(class, &modes.into_iter().collect::<Option<Vec<_>>>()?)]
     } else {
-        open(class, &solve(&Fan::whole(class).system(), &energy)?.coefficients)
+        open(class, &solve(&Fan::whole(class).system(), &energies)?.coefficients)
     };
     Some(cleaned(class, &sectors))
 }
@@ -102,7 +103,7 @@ mod tests {
     /// The rank of the conditions, and how many coefficients they leave free. Any energy will do.
     fn rank(system: &System) -> (usize, usize) {
         let rank =
-            solve(system, &Mat::identity(SECTOR, SECTOR)).expect("the conditions can be fulfilled").rank;
+            solve(system, &[Mat::identity(SECTOR, SECTOR)]).expect("the conditions can be fulfilled").rank;
         (rank, system.free.len() - rank)
     }
 

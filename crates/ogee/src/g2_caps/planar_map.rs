@@ -5,31 +5,61 @@ use faer::c64;
 use super::energy::parametric;
 use super::fan::{Fan, SECTOR};
 use super::generate::admissible;
-use super::{COEFFICIENTS, CapClass, solve};
+use super::solve::solve;
+use super::{COEFFICIENTS, CapClass};
 use crate::math::Grid;
 
-/// The planar map of sector 0 of a class: the coefficients `(x, y)` of its cap over the natural configuration, the subdominant
-/// eigenvector of Catmull-Clark, with the vertex at the origin and its first neighbour at `(1, 0)`. The next sector is the same, turned by
-/// the angle of a sector.
+/// The planar map of a class: the coefficients `(x, y)` of its cap over the natural configuration, the subdominant eigenvector of
+/// Catmull-Clark, with the vertex at the origin and its first neighbour at `(1, 0)`.
 ///
-/// The 13 x 13 grid has `i` along the sector's first edge. Of the coefficients that the conditions leave open those are taken that
-/// make the squares of the fourth derivatives by the parameters least (`docs/methods/g2_caps.md`, Energy). `None` for classes that
-/// have no cap.
-pub fn planar_map(class: CapClass) -> Option<Grid<[f64; 2]>> {
-    let map = of_sectors(admissible(class)?.sector_angle())?;
-    Some(Grid::from_fn(COEFFICIENTS, COEFFICIENTS, |i, j| map[COEFFICIENTS * i + j]))
+/// A 13 x 13 grid, `i` along the sector's first edge, for each sector; of an interior vertex for sector 0 only, since the next one is the
+/// same, turned. Of the coefficients that the conditions leave open those are taken that make the squares of the fourth derivatives by the
+/// parameters least (`docs/methods/g2_caps.md`, Energy). `None` for classes that have no cap.
+pub fn planar_map(class: CapClass) -> Option<Vec<Grid<[f64; 2]>>> {
+    let grid =
+        |map: Vec<[f64; 2]>| Grid::from_fn(COEFFICIENTS, COEFFICIENTS, |i, j| map[COEFFICIENTS * i + j]);
+    Some(of_class(admissible(class)?)?.into_iter().map(grid).collect())
 }
 
-/// The coefficients of the planar map of sectors of some angle, which need not divide a full turn.
-pub(super) fn of_sectors(angle: f64) -> Option<Vec<[f64; 2]>> {
-    let coefficients = solve::solve(&Fan::mode(angle, angle).system(), &parametric())?.coefficients;
-    let ring = natural_ring(angle);
-    let point = |row: usize| {
-        let weight = |column| c64::new(coefficients[(row, column)], coefficients[(SECTOR + row, column)]);
-        let sum = (0..ring.len()).fold(c64::new(0.0, 0.0), |sum, column| sum + weight(column) * ring[column]);
-        [sum.re, sum.im]
+/// The coefficients of the planar map, row by row.
+pub(super) fn of_class(class: CapClass) -> Option<Vec<Vec<[f64; 2]>>> {
+    let angle = class.sector_angle();
+    if class.is_closed() {
+        let fan = Fan::mode(angle, angle);
+        let weights = solve(&fan.system(), &[parametric()])?.coefficients;
+        let weight = |row, column| c64::new(weights[(row, column)], weights[(SECTOR + row, column)]);
+        Some(vec![image(&natural_configuration(&fan), weight)])
+    } else {
+        let fan = Fan::whole(class);
+        let weights = solve(&fan.system(), &[parametric()])?.coefficients;
+        let points = natural_configuration(&fan);
+        let weight = |row, column| c64::new(weights[(row, column)], 0.0);
+        Some(
+            (0..fan.sectors)
+                .map(|sector| image(&points, |row, column| weight(SECTOR * sector + row, column)))
+                .collect(),
+        )
+    }
+}
+
+/// The coefficients of a sector from the points of the columns.
+fn image(points: &[c64], weight: impl Fn(usize, usize) -> c64) -> Vec<[f64; 2]> {
+    let sum = |row| points.iter().enumerate().map(|(column, point)| weight(row, column) * point).sum::<c64>();
+    (0..SECTOR).map(|row| sum(row)).map(|point| [point.re, point.im]).collect()
+}
+
+/// The natural configuration, a point for each column of a fan.
+fn natural_configuration<T>(fan: &Fan<T>) -> Vec<c64> {
+    let [middle, on_edge @ .., p11, p21, p12, p22] = natural_ring(fan.angle);
+    let turned = |places: usize, points: &[c64]| {
+        let angles = (0..places).map(|place| fan.angle * place as f64);
+        let turns = angles.map(|angle| c64::new(angle.cos(), angle.sin()));
+        turns.flat_map(|turn| points.iter().map(move |point| point * turn)).collect::<Vec<_>>()
     };
-    Some((0..SECTOR).map(point).collect())
+    let mut points = vec![middle];
+    points.extend(turned(fan.edges, &on_edge));
+    points.extend(turned(fan.sectors, &[p11, p21, p12, p22]));
+    points
 }
 
 /// The natural configuration of sectors of some angle: the two-ring that one step of Catmull-Clark only shrinks, in the order
@@ -60,7 +90,7 @@ mod tests {
     use super::*;
     use crate::Vec3;
     use crate::g2_caps::columns::Node;
-    use crate::g2_caps::{generate, nets};
+    use crate::g2_caps::{CornerAngle, generate, nets};
 
     #[test]
     fn the_plane_of_a_regular_vertex_is_its_grid() {
@@ -73,24 +103,37 @@ mod tests {
 
     #[test]
     fn the_cap_of_the_natural_configuration_is_the_map() {
-        for valence in [3, 5, 8] {
-            let class = CapClass::Interior { valence };
+        let classes = [
+            CapClass::Interior { valence: 3 },
+            CapClass::Interior { valence: 8 },
+            CapClass::Boundary { faces: 3 },
+            CapClass::Corner { faces: 2, angle: CornerAngle::Convex },
+            CapClass::Dart { valence: 3 },
+        ];
+        for class in classes {
             let angle = class.sector_angle();
             let ring = natural_ring(angle);
             let mut points = vec![Vec3::ZERO; class.columns()];
+            let mut put = |node: Node, place: usize, point: c64| {
+                let turned = point * c64::new((angle * place as f64).cos(), (angle * place as f64).sin());
+                points[class.column(node)] = Vec3::new(turned.re, turned.im, 0.0);
+            };
+            for edge in 0..class.edges() {
+                put(Node::P10(edge), edge, ring[1]);
+                put(Node::P20(edge), edge, ring[2]);
+            }
             for sector in 0..class.sectors() {
-                let nodes = [Node::P10, Node::P20, Node::P11, Node::P21, Node::P12, Node::P22];
-                for (node, point) in nodes.into_iter().zip(&ring[1..]) {
-                    let turned =
-                        point * c64::new((angle * sector as f64).cos(), (angle * sector as f64).sin());
-                    points[class.column(node(sector))] = Vec3::new(turned.re, turned.im, 0.0);
+                for (node, point) in [Node::P11, Node::P21, Node::P12, Node::P22].into_iter().zip(&ring[3..])
+                {
+                    put(node(sector), sector, *point);
                 }
             }
-            let net = &nets(&generate(class).expect("a class with caps"), &points)[0];
-            let map = planar_map(class).expect("a class with caps");
-            for (point, &[x, y]) in net.cells().iter().zip(map.cells()) {
-                let distance = point.distance(Vec3::new(x, y, 0.0));
-                assert!(distance < 1e-11, "{valence}: {distance:e}");
+            let nets = nets(&generate(class).expect("a class with caps"), &points);
+            for (map, net) in planar_map(class).expect("a class with caps").iter().zip(&nets) {
+                for (point, &[x, y]) in net.cells().iter().zip(map.cells()) {
+                    let distance = point.distance(Vec3::new(x, y, 0.0));
+                    assert!(distance < 1e-11, "{class:?}: {distance:e}");
+                }
             }
         }
     }

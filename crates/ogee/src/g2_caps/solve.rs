@@ -21,9 +21,9 @@ pub(super) struct Solution {
     pub(super) rank: usize,
 }
 
-/// The coefficients for which the energy, given as a factor for each sector, is least. `None` where the conditions contradict what is
-/// given.
-pub(super) fn solve(system: &System, energy: &Mat<f64>) -> Option<Solution> {
+/// The coefficients for which the energy is least. It is given as a factor for each sector, or one for all. `None` where the conditions
+/// contradict what is given.
+pub(super) fn solve(system: &System, energies: &[Mat<f64>]) -> Option<Solution> {
     let System { given, free, conditions } = system;
     let right = -(conditions * given);
     // Transposed: the first columns of Q are what the conditions see, the others their null space.
@@ -59,7 +59,7 @@ pub(super) fn solve(system: &System, energy: &Mat<f64>) -> Option<Solution> {
     let weigh = |all: &Mat<f64>| {
         let mut weighed = Mat::zeros(all.nrows(), all.ncols());
         for rows in (0..all.nrows()).step_by(SECTOR) {
-            let sector = energy * all.get(rows..rows + SECTOR, ..);
+            let sector = &energies[rows / SECTOR % energies.len()] * all.get(rows..rows + SECTOR, ..);
             weighed.get_mut(rows..rows + SECTOR, ..).copy_from(sector);
         }
         weighed
