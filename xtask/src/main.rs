@@ -1,10 +1,12 @@
 //! Chores of the workspace. `models [DIR]` writes the shipped cages, `bench` times whole commands, `bench limit`
 //! evaluation beside other programs, `bench threads` what a second thread gains; `bench-worker` is a part of that. `reproduce interrogation`,
-//! `reproduce curve-networks` and `reproduce lens` make papers' figures and tables again, `bless` the pictures that tests compare with.
+//! `reproduce curve-networks` and `reproduce lens` make papers' figures and tables again, `tables [DIR]` the shipped weights of G2 caps,
+//! `bless` the pictures that tests compare with.
 
 mod bench;
 mod models;
 mod reproduce;
+mod tables;
 
 use std::path::PathBuf;
 
@@ -52,6 +54,10 @@ fn main() -> Result<()> {
             }
             Ok(())
         }
+        ["tables", ref rest @ ..] if rest.len() < 2 => {
+            let folder = rest.first().map_or_else(|| tables::folder(&root()), PathBuf::from);
+            tables::write_all(&folder, &mut std::io::stdout())
+        }
         ["bless"] => {
             let mut command = std::process::Command::new(env!("CARGO"));
             command.args(["test", "--package", "ogee-render", "--test", "pictures_stay_as_they_were_judged"]);
@@ -66,7 +72,7 @@ fn main() -> Result<()> {
         }
         _ => {
             bail!(
-                "usage: cargo xtask models [DIR] | bench [limit [TASK] | threads] | reproduce interrogation|curve-networks|lens | bless"
+                "usage: cargo xtask models [DIR] | bench [limit [TASK] | threads] | reproduce interrogation|curve-networks|lens | tables [DIR] | bless"
             )
         }
     }

@@ -98,10 +98,10 @@ fn surroundings(class: CapClass, points: &[Vec3], sector: usize) -> Grid<Vec3> {
 }
 
 /// The denominator of [`SIDE`] and [`OUTER`].
-const DENOMINATOR: f64 = 1680.0;
+pub(super) const DENOMINATOR: f64 = 1680.0;
 
 /// The first seven coefficients of a uniform cubic's cell from the points at -1, 0, 1, 2; the others from the far end.
-const SIDE: [[f64; 4]; 7] = [
+pub(super) const SIDE: [[f64; 4]; 7] = [
     [280.0, 1120.0, 280.0, 0.0],
     [220.0, 1120.0, 340.0, 0.0],
     [170.0, 1100.0, 410.0, 0.0],
@@ -112,7 +112,8 @@ const SIDE: [[f64; 4]; 7] = [
 ];
 
 /// The last three coefficients across a side from the points at 0, 1, 2: the two-jet of a uniform cubic at 1.
-const OUTER: [[f64; 3]; 3] = [[410.0, 1100.0, 170.0], [340.0, 1120.0, 220.0], [280.0, 1120.0, 280.0]];
+pub(super) const OUTER: [[f64; 3]; 3] =
+    [[410.0, 1100.0, 170.0], [340.0, 1120.0, 220.0], [280.0, 1120.0, 280.0]];
 
 /// Coefficient `number` of a cubic from its four points.
 fn along_side(number: usize, at: impl Fn(usize) -> Vec3) -> Vec3 {

@@ -7,13 +7,25 @@
 mod apply;
 mod class;
 mod columns;
+mod conditions;
+mod energy;
+mod fan;
+mod generate;
+mod planar_map;
+mod residuals;
 mod site;
+mod solve;
+mod spline;
+mod system;
 mod tables;
 mod tiling;
 mod weights;
 
 pub use apply::{knots, nets};
 pub use class::{CapClass, CornerAngle};
+pub use generate::generate;
+pub use planar_map::planar_map;
+pub use residuals::residuals;
 pub use site::{Obstacle, Site, cap_points, site};
 pub use tables::{encode, is_solvable, shipped_classes, table_name, weights};
 pub use weights::Weights;

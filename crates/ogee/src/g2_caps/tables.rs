@@ -9,7 +9,7 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::{CapClass, CornerAngle, INNER, Weights};
+use super::{CapClass, CornerAngle, INNER, Weights, generate};
 use crate::math::Grid;
 
 /// Weights in tables are multiples of the inverse of this: half an ulp of the greatest ones, a fraction of rounding in use.
@@ -238,9 +238,4 @@ impl BitReader<'_> {
         // To the top and back again, which keeps the sign; nothing is left of a number of no bits.
         Some(number.checked_shl(shift).map_or(0, |top| top as i64 >> shift))
     }
-}
-
-/// Until weights can be generated.
-fn generate(_: CapClass) -> Option<Weights> {
-    None
 }
