@@ -4,7 +4,7 @@ use std::io;
 use std::time::Instant;
 
 use clap::Args;
-use ogee::convert::{ConvertError, Method, Options, Packing, Part, UpAxis, to_part};
+use ogee::convert::{ConvertError, LevelFaces, Method, Options, Packing, Part, UpAxis, to_part};
 use ogee::curve_network::NetworkCurve;
 use ogee::lens;
 use ogee::pccm::PccmError;
@@ -100,12 +100,39 @@ pub(crate) struct PartReport {
     max_curvature_jump: f64,
     smooth_edges: usize,
     sharp_edges: usize,
-    /// By level of refinement how many patches are faces of it.
-    levels: Vec<usize>,
+    levels: Vec<LevelReport>,
     caps: usize,
     cap_degree: Option<usize>,
     nodes: Vec<NodeReport>,
     lenses: Vec<LensReport>,
+}
+
+/// How many faces were converted on a level, for programs.
+#[derive(Serialize)]
+pub(crate) struct LevelReport {
+    steps: u32,
+    level: u32,
+    faces: usize,
+}
+
+impl LevelReport {
+    fn new(of: &LevelFaces) -> LevelReport {
+        let LevelFaces { steps, level, faces } = *of;
+        LevelReport { steps, level, faces }
+    }
+
+    fn described(&self) -> String {
+        let faces = count(self.faces, "face", "faces");
+        let split = match self.steps {
+            0 => "of the cage".to_owned(),
+            1 => "refined once".to_owned(),
+            steps => format!("refined {steps} times"),
+        };
+        match self.level {
+            0 => format!("{faces} {split}"),
+            level => format!("{faces} {split} at level {level}"),
+        }
+    }
 }
 
 impl PartArguments {
@@ -226,7 +253,7 @@ impl PartArguments {
             max_curvature_jump: figures.max_curvature_jump,
             smooth_edges: figures.smooth_edges,
             sharp_edges: figures.sharp_edges,
-            levels: figures.levels.clone(),
+            levels: figures.faces_by_level.iter().map(LevelReport::new).collect(),
             caps,
             cap_degree: (caps > 0).then_some(ogee::g2_caps::DEGREE),
             nodes,
@@ -259,9 +286,7 @@ impl PartReport {
         let written = count(report.faces_written, "face", "faces");
         table.row("patches", format!("{}, written as {written}", report.patches));
         if report.levels.len() > 1 {
-            let faces = (0..).zip(&report.levels).filter(|(_, faces)| **faces > 0);
-            let words: Vec<String> =
-                faces.map(|(level, faces)| format!("{faces} of level {level}")).collect();
+            let words: Vec<String> = report.levels.iter().map(LevelReport::described).collect();
             table.row("levels", words.join(", "));
         }
         if let Some(degree) = report.cap_degree {

@@ -30,12 +30,20 @@ pub(super) struct Fan {
 }
 
 impl Fan {
-    /// The faces that are part of the surface.
-    pub(super) fn charts<'a>(&'a self, adaptive: &'a Adaptive) -> impl Iterator<Item = PlacedChart> + 'a {
+    /// The halfedges in faces that are part of the surface, with their surfaces.
+    pub(super) fn visible<'a>(
+        &'a self,
+        adaptive: &'a Adaptive,
+    ) -> impl Iterator<Item = (HalfedgeId, &'a NurbsSurface)> {
         let level = &adaptive.levels()[self.level];
-        let topology = level.level.topology();
-        let faces = self.halfedges.iter().zip(&self.surfaces);
-        faces.filter(|&(&h, _)| level.is_visible(topology.face(h))).map(|(&h, surface)| {
+        let faces = self.halfedges.iter().copied().zip(&self.surfaces);
+        faces.filter(|&(h, _)| level.is_visible(level.level.topology().face(h)))
+    }
+
+    /// A chart for each of them.
+    pub(super) fn charts<'a>(&'a self, adaptive: &'a Adaptive) -> impl Iterator<Item = PlacedChart> + 'a {
+        let topology = adaptive.levels()[self.level].level.topology();
+        self.visible(adaptive).map(|(h, surface)| {
             let face = topology.face(h);
             let placed = Placed { quad: face.0, turn: h.0 - topology.first(face).0 };
             let chart = Chart { quads: Grid::from_fn(1, 1, |_, _| placed) };

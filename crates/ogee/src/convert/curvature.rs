@@ -6,16 +6,15 @@
 use std::collections::BTreeMap;
 
 use super::cap_deviation::{self, Fan};
-use super::part::{Node, NodeKind};
-use super::source::Source;
+use super::part::{LevelFaces, Node, NodeKind};
+use super::source::{Source, told};
 use super::{ConvertError, DEEPEST_LEVEL, Options, Packing, PlacedChart};
 use crate::g2_caps::{self, PlacedCap, Tiling, Uncapped};
 use crate::math::{Grid, Vec3, par};
 use crate::mesh::{FaceId, HalfedgeId, Note, VertexId};
 use crate::nurbs::{KnotVector, NurbsSurface};
-use crate::patch::{Adaptive, AdaptiveLevel, Neighbourhood, with_ring};
-use crate::pccm::{self, Cells, Chart, CornerClass, Layer, Pieces, Placed, inserted, pack, unpacked, view};
-use crate::rules::Level;
+use crate::patch::Adaptive;
+use crate::pccm::{self, Cells, Chart, CornerClass, Layer, Placed, inserted, pack, unpacked, view};
 
 /// A cage in bicubic faces and caps.
 pub(super) struct Curvature<'a> {
@@ -31,6 +30,8 @@ pub(super) struct Curvature<'a> {
 impl<'a> Curvature<'a> {
     /// Caps on the coarsest levels on which they are near enough to the limit surface.
     pub(super) fn new(source: &'a Source, options: &Options) -> Result<Curvature<'a>, ConvertError> {
+        // What has no patch has no cap either.
+        pccm::plan(source.cage(), Layer::Second, None).map_err(|error| told(error, &source.origins))?;
         let least = options.level.unwrap_or(0);
         // By the number that a vertex keeps on all levels.
         let mut levels: BTreeMap<u32, u32> = BTreeMap::new();
@@ -55,14 +56,14 @@ impl<'a> Curvature<'a> {
     }
 
     fn on_levels(source: &'a Source, level_of: impl Fn(u32) -> u32) -> Result<Curvature<'a>, ConvertError> {
-        let tiling = Tiling::new(&source.adaptive_cage(), level_of)?;
+        let tiling = Tiling::new(&source.adaptive, level_of)?;
         let mut fans = par::map(tiling.caps.len(), |cap| capped(&tiling.adaptive, &tiling.caps[cap]));
         let mut broken = Vec::new();
         let mut notes = Vec::new();
         for number in 0..tiling.adaptive.levels().len() {
             let sectors: Vec<&Uncapped> =
                 tiling.uncapped.iter().filter(|sector| sector.level == number).collect();
-            let smoothed = Smoothed::new(&tiling.adaptive, number, &sectors)?;
+            let smoothed = Smoothed::new(&tiling.adaptive, number, &sectors);
             broken.extend(smoothed.broken.into_iter().map(|h| (number, h)));
             fans.extend(smoothed.fans);
             for sector in sectors {
@@ -79,6 +80,17 @@ impl<'a> Curvature<'a> {
             deviation,
         });
         Ok(Curvature { source, nodes: nodes.collect(), fans, broken, notes, tiling })
+    }
+
+    /// How many faces are of which level.
+    pub(super) fn faces_by_level(&self) -> Vec<LevelFaces> {
+        let adaptive = &self.tiling.adaptive;
+        let levels = self.tiling.regular.iter().enumerate().map(|(number, regular)| {
+            let fans = self.fans.iter().filter(|fan| fan.level == number);
+            let faces = regular.len() + fans.map(|fan| fan.visible(adaptive).count()).sum::<usize>();
+            LevelFaces { steps: number as u32, level: 0, faces }
+        });
+        levels.filter(|level| level.faces > 0).collect()
     }
 
     pub(super) fn deviation(&self) -> f64 {
@@ -121,58 +133,23 @@ impl<'a> Curvature<'a> {
         if faces.is_empty() {
             return Vec::new();
         }
-        let around = Around::new(level, faces);
-        let hidden = (0..around.faces.len()).filter(|&own| faces.binary_search(&around.faces[own]).is_err());
-        let base = around.level.clone().with_hidden(hidden.map(|own| FaceId(own as u32)).collect());
+        let part = pccm::Part::new(&level.level, 0, faces);
+        let (base, points) = (part.base(), part.points(&level.points));
         let charts = match packing {
-            Packing::Unpacked => unpacked(&base),
+            Packing::Unpacked => unpacked(base),
             Packing::Packed => {
                 let seams = self.source.seams(&self.tiling.adaptive, number);
-                let seams: Vec<HalfedgeId> = seams.iter().filter_map(|&h| around.own(level, h)).collect();
-                pack(&base, &vec![[CornerClass::Regular; 4]; around.faces.len()], &seams)
+                let seams: Vec<HalfedgeId> = seams.into_iter().flat_map(|h| part.along(h)).collect();
+                pack(base, &vec![[CornerClass::Regular; 4]; base.topology().face_count()], &seams)
             }
         };
-        let cells = Cells::new(&base, &base, 0);
-        let surfaces = par::map(charts.len(), |chart| bicubic(&cells, &charts[chart], &around.points));
+        let cells = Cells::new(base, base, 0);
+        let surfaces = par::map(charts.len(), |chart| bicubic(&cells, &charts[chart], &points));
         let placed = |(chart, surface): (Chart, NurbsSurface)| {
-            let quads =
-                chart.quads.map(|placed| Placed { quad: around.faces[placed.quad as usize].0, ..*placed });
-            PlacedChart { level: number, chart: Chart { quads }, surface }
+            let own = |placed: &Placed| Placed { quad: part.face(FaceId(placed.quad)).0, ..*placed };
+            PlacedChart { level: number, chart: Chart { quads: chart.quads.map(own) }, surface }
         };
         charts.into_iter().zip(surfaces).map(placed).collect()
-    }
-}
-
-/// Some faces of a level with all that touch them.
-struct Around {
-    level: Level,
-    points: Vec<Vec3>,
-    /// For each of its faces that of the whole level, in order.
-    faces: Vec<FaceId>,
-}
-
-impl Around {
-    fn new(whole: &AdaptiveLevel, faces: &[FaceId]) -> Around {
-        let faces = with_ring(&whole.level, faces);
-        let part = Neighbourhood::new(&whole.level, &faces);
-        Around { points: part.take(&whole.points), level: part.level, faces }
-    }
-
-    /// The halfedge for one of the whole level, or for its twin.
-    fn own(&self, whole: &AdaptiveLevel, h: HalfedgeId) -> Option<HalfedgeId> {
-        let topology = whole.level.topology();
-        [Some(h), topology.twin(h)].into_iter().flatten().find_map(|h| {
-            let face = topology.face(h);
-            let own = self.faces.binary_search(&face).ok()?;
-            Some(HalfedgeId(self.level.topology().first(FaceId(own as u32)).0 + h.0 - topology.first(face).0))
-        })
-    }
-
-    fn whole(&self, whole: &AdaptiveLevel, own: HalfedgeId) -> HalfedgeId {
-        let topology = self.level.topology();
-        let face = topology.face(own);
-        let first = whole.level.topology().first(self.faces[face.index()]);
-        HalfedgeId(first.0 + own.0 - topology.first(face).0)
     }
 }
 
@@ -217,38 +194,30 @@ struct Smoothed {
 }
 
 impl Smoothed {
-    fn new(adaptive: &Adaptive, number: usize, sectors: &[&Uncapped]) -> Result<Smoothed, ConvertError> {
+    fn new(adaptive: &Adaptive, number: usize, sectors: &[&Uncapped]) -> Smoothed {
         if sectors.is_empty() {
-            return Ok(Smoothed::default());
+            return Smoothed::default();
         }
         let whole = &adaptive.levels()[number];
         let topology = whole.level.topology();
         let in_fans = sectors.iter().flat_map(|sector| &sector.halfedges).map(|&h| topology.face(h));
         let mut faces: Vec<FaceId> = in_fans.collect();
         faces.sort_unstable();
-        let around = Around::new(whole, &faces);
-        let layer = Layer::Second;
-        let level = pccm::least_level(&around.level, layer)?.level;
-        let options = pccm::Options { layer, level, ..pccm::Options::default() };
-        let patches = pccm::to_patches(&around.level, &around.points, &options)?;
-        let pieces = Pieces::new(&around.level, &around.points, &patches, layer);
-        let own_topology = around.level.topology();
-        let surface = |&h: &HalfedgeId| {
-            let own = around.own(whole, h)?;
-            let (quad, turn) = (own_topology.face(own).0, own.0 % 4);
-            Some(pieces.surface(&Chart { quads: Grid::from_fn(1, 1, |_, _| Placed { quad, turn }) }))
-        };
+        let part = pccm::Part::new(&whole.level, 0, &faces);
+        let patches = pccm::Converted::new(part, &whole.points, &pccm::Options::default());
+        let halfedges: Vec<HalfedgeId> =
+            sectors.iter().flat_map(|sector| sector.halfedges.iter().copied()).collect();
+        let mut surfaces = patches.seen_from(&halfedges).into_iter();
         let fan = |sector: &&Uncapped| Fan {
             level: number,
             number: whole.vertices[topology.origin(sector.halfedges[0]).index()],
             halfedges: sector.halfedges.clone(),
             closed: false,
-            surfaces: sector.halfedges.iter().filter_map(surface).collect(),
+            surfaces: surfaces.by_ref().take(sector.halfedges.len()).collect(),
         };
         let apexes: Vec<VertexId> =
             sectors.iter().map(|sector| topology.origin(sector.halfedges[0])).collect();
-        let broken = patches.broken.iter().map(|&own| around.whole(whole, own));
-        let broken = broken.filter(|&h| apexes.contains(&topology.origin(h)));
-        Ok(Smoothed { fans: sectors.iter().map(fan).collect(), broken: broken.collect() })
+        let broken = patches.broken().into_iter().filter(|&h| apexes.contains(&topology.origin(h)));
+        Smoothed { fans: sectors.iter().map(fan).collect(), broken: broken.collect() }
     }
 }

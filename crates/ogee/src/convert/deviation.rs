@@ -17,7 +17,8 @@ use crate::rules::Level;
 /// Steps beyond the level of the patches.
 const STEPS_BEYOND: u32 = 2;
 
-/// Patches as the measurement wants them: one surface per quad of the base, over `[0, 2^level]` in both directions.
+/// Patches as the measurement wants them: one surface per quad of the base, over `[0, 2^level]` in both directions, without
+/// coefficients where a quad has no patch.
 pub(super) struct Measured<'a> {
     pub(super) base: &'a Level,
     pub(super) points: &'a [Vec3],
@@ -108,8 +109,11 @@ impl Measured<'_> {
             else {
                 continue;
             };
+            let across =
+                self.surfaces.get(twin.index() / 4).filter(|surface| !surface.net.cells().is_empty());
+            let Some(across) = across else { continue };
             let start = corner_frame(twin.index() % 4, m - along, 0.0, m);
-            best = best.min(closest(&self.surfaces[twin.index() / 4], m, start, point).1);
+            best = best.min(closest(across, m, start, point).1);
         }
         best
     }

@@ -16,7 +16,7 @@ mod sew;
 mod source;
 
 pub use curves::largest_distance_to_edges;
-pub use part::{Body, Method, Node, NodeKind, Part, Report};
+pub use part::{Body, LevelFaces, Method, Node, NodeKind, Part, Report};
 
 use crate::g2_caps;
 use crate::lens::{self, LensError};
@@ -24,14 +24,14 @@ use crate::math::Vec3;
 use crate::mesh::{ControlMesh, FaceId, HalfedgeId, Meeting, Note, TopologyError, VertexId, notes};
 use crate::nurbs::NurbsSurface;
 use crate::patch::Adaptive;
-use crate::pccm::{Chart, Layer, PccmError, least_level};
+use crate::pccm::{Chart, Layer, PccmError};
 use crate::refine::TooDeep;
 use bicubic::Bicubic;
 use curvature::Curvature;
 use measure::Continuity;
 use outline::{Face, Seams};
 use quintic::Quintic;
-use source::{Source, told};
+use source::Source;
 
 /// The greatest level that [`to_part`] tries when asked for a deviation, and accepts when asked for a level.
 pub const DEEPEST_LEVEL: u32 = 6;
@@ -201,73 +201,20 @@ pub fn to_part(mesh: &ControlMesh, options: &Options) -> Result<Part, ConvertErr
     if let Some(level) = options.level.filter(|&level| level > DEEPEST_LEVEL) {
         return Err(ConvertError::LevelTooHigh { level });
     }
-    let bicubic = |layer: Layer| {
-        let (quads, _) = source.quads();
-        let least = least_level(quads, layer).map_err(|error| told(error, &source.origins))?.level;
-        by_level(&source, options, least, |level| {
-            Bicubic::new(&source, layer, level).map(Construction::Bicubic)
-        })
+    let construction = match options.method {
+        Method::Pccm => Construction::Bicubic(Bicubic::new(&source, Layer::Second, options)?),
+        Method::PccmFirst => Construction::Bicubic(Bicubic::new(&source, Layer::First, options)?),
+        Method::Bi5 => Construction::Quintic(Quintic::new(&source, options)?),
+        Method::G2 => Construction::Curvature(Curvature::new(&source, options)?),
     };
-    let conversion = match options.method {
-        Method::Pccm => bicubic(Layer::Second)?,
-        Method::PccmFirst => bicubic(Layer::First)?,
-        Method::Bi5 => {
-            by_level(&source, options, 0, |level| Quintic::new(&source, level).map(Construction::Quintic))?
-        }
-        Method::G2 => {
-            // What has no patch has no cap either.
-            least_level(source.quads().0, Layer::Second).map_err(|error| told(error, &source.origins))?;
-            Conversion::with_caps(Curvature::new(&source, options)?)
-        }
-    };
-    Ok(finish(&source, &conversion, options, mesh))
+    Ok(finish(&source, &construction, options, mesh))
 }
 
-/// Converts with one level for all faces, the least that will do.
-fn by_level<'a>(
-    source: &Source,
-    options: &Options,
-    least: u32,
-    converted: impl Fn(u32) -> Result<Construction<'a>, ConvertError>,
-) -> Result<Conversion<'a>, ConvertError> {
-    let mut level = options.level.unwrap_or(least);
-    loop {
-        check_memory(source, options, level)?;
-        let construction = converted(level)?;
-        let deviation = construction.deviation();
-        match options.max_deviation {
-            Some(wanted) if deviation >= wanted && level < DEEPEST_LEVEL && options.level.is_none() => {
-                level += 1;
-            }
-            Some(wanted) if deviation >= wanted => {
-                return Err(ConvertError::Deviation { wanted, reached: deviation, level });
-            }
-            _ => return Ok(Conversion { construction, level, deviation }),
-        }
-    }
-}
-
-/// A cage in patches, measured.
-struct Conversion<'a> {
-    construction: Construction<'a>,
-    level: u32,
-    deviation: f64,
-}
-
+/// A cage in patches.
 enum Construction<'a> {
     Bicubic(Bicubic<'a>),
     Quintic(Quintic),
     Curvature(Curvature<'a>),
-}
-
-impl<'a> Conversion<'a> {
-    fn with_caps(curvature: Curvature<'a>) -> Conversion<'a> {
-        Conversion {
-            level: (curvature.adaptive().levels().len() - 1) as u32,
-            deviation: curvature.deviation(),
-            construction: Construction::Curvature(curvature),
-        }
-    }
 }
 
 /// A chart of a level of refinement, with its surface, one unit of knot per quad.
@@ -278,6 +225,22 @@ struct PlacedChart {
 }
 
 impl Construction<'_> {
+    fn faces_by_level(&self) -> Vec<LevelFaces> {
+        match self {
+            Construction::Bicubic(bicubic) => bicubic.faces_by_level(),
+            Construction::Quintic(quintic) => quintic.faces_by_level(),
+            Construction::Curvature(curvature) => curvature.faces_by_level(),
+        }
+    }
+
+    fn level(&self) -> u32 {
+        let greatest = |of: fn(&LevelFaces) -> u32| self.faces_by_level().iter().map(of).max().unwrap_or(0);
+        match self {
+            Construction::Curvature(_) => greatest(|faces| faces.steps),
+            Construction::Bicubic(_) | Construction::Quintic(_) => greatest(|faces| faces.level),
+        }
+    }
+
     fn deviation(&self) -> f64 {
         match self {
             Construction::Bicubic(bicubic) => bicubic.deviation(),
@@ -328,42 +291,12 @@ impl Construction<'_> {
     }
 }
 
-/// Asks whether the refined mesh and the coefficients of all patches fit.
-fn check_memory(source: &Source, options: &Options, level: u32) -> Result<(), TooDeep> {
-    let (quads, _) = source.quads();
-    quads.check_depth(level, u64::MAX)?;
-    let quads = quads.topology().face_count() as u128;
-    let bytes = |level: u32| match options.method {
-        // Coefficients as inserted, as smoothed, as surfaces; nets of all levels; the refined mesh.
-        Method::Pccm | Method::PccmFirst => {
-            let side = (1u128 << level) + 7;
-            quads * side * side * BYTES_PER_COEFFICIENT
-        }
-        Method::Bi5 => (quads << (2 * level)) * BYTES_PER_QUINTIC,
-        // Asked once the levels of all faces are known.
-        Method::G2 => 0,
-    };
-    let memory = u128::from(options.memory.unwrap_or(u64::MAX));
-    if bytes(level) <= memory {
-        return Ok(());
-    }
-    let deepest = (0..level).rev().find(|&shallower| bytes(shallower) <= memory).unwrap_or(0);
-    Err(TooDeep { depth: level, faces: quads << (2 * level), deepest })
-}
-
-/// Measured on studded tori of 10 000 and 100 000 quads at levels 2 to 5 (82 to 148), rounded up.
-const BYTES_PER_COEFFICIENT: u128 = 160;
-
-/// Measured on Spot at levels 0 to 2, rounded up: the patch itself is a small part of it, the refined mesh that it is
-/// measured against the larger.
-const BYTES_PER_QUINTIC: u128 = 32_000;
-
 /// Share of the cube of the cage's size below which a closed part encloses nothing.
 const NO_VOLUME: f64 = 1e-12;
 
 /// Sews, sorts, measures, and moves the part back to where the cage was.
-fn finish(source: &Source, conversion: &Conversion<'_>, options: &Options, mesh: &ControlMesh) -> Part {
-    let Conversion { ref construction, level, deviation } = *conversion;
+fn finish(source: &Source, construction: &Construction<'_>, options: &Options, mesh: &ControlMesh) -> Part {
+    let (deviation, faces_by_level) = (construction.deviation(), construction.faces_by_level());
     let mut all_notes = notes(mesh);
     all_notes.extend(construction.notes());
     all_notes.extend(source.refined_for_lenses());
@@ -373,11 +306,7 @@ fn finish(source: &Source, conversion: &Conversion<'_>, options: &Options, mesh:
         sewing.divide(*level, chart.quads.cells().iter().map(|placed| FaceId(placed.quad)));
     }
     construction.broken().into_iter().for_each(|(level, h)| sewing.break_at(level, h));
-    let mut levels = vec![0; construction.adaptive().levels().len()];
-    for PlacedChart { level, chart, .. } in &charts {
-        levels[*level] += chart.quads.cells().len();
-    }
-    let patches: usize = levels.iter().sum();
+    let patches: usize = charts.iter().map(|placed| placed.chart.quads.cells().len()).sum();
     let face = |PlacedChart { level, chart, surface }| sewing.chart(level, &chart, surface);
     let mut faces: Vec<Face> = charts.into_iter().map(face).collect();
     let charts = faces.len();
@@ -398,10 +327,10 @@ fn finish(source: &Source, conversion: &Conversion<'_>, options: &Options, mesh:
     let mut extent: Option<[Vec3; 2]> = None;
     let mut report = Report {
         method: options.method,
-        level,
+        level: construction.level(),
+        faces_by_level,
         cage_faces: source.cage_faces,
         patches: patches + cap_patches,
-        levels,
         nodes: construction.nodes().to_vec(),
         lenses: source.lenses.clone(),
         lens_steps: source.steps,

@@ -97,13 +97,26 @@ pub enum NodeKind {
     Smoothed,
 }
 
+/// How many faces were converted on a level.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LevelFaces {
+    /// 0 for faces of the cage, 1 for those of its refinement, and so on.
+    pub steps: u32,
+    /// Refinements of each of these faces before the conversion.
+    pub level: u32,
+    /// How many they are, hidden ones left out.
+    pub faces: usize,
+}
+
 /// The figures of a conversion. Lengths are in the unit of the cage.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
     /// The construction.
     pub method: Method,
-    /// Refinements before the conversion.
+    /// Refinements before the conversion, the most of all faces.
     pub level: u32,
+    /// How many faces were refined how often before the conversion; by steps, then by level.
+    pub faces_by_level: Vec<LevelFaces>,
     /// Faces of the cage.
     pub cage_faces: usize,
     /// Patches before packing: one per visible quad that was converted.
@@ -141,8 +154,6 @@ pub struct Report {
     pub smooth_edges: usize,
     /// Shared edges that are not.
     pub sharp_edges: usize,
-    /// By level of refinement how many of the patches are faces of it: 0 is the cage.
-    pub levels: Vec<usize>,
     /// Of the method G2: every irregular vertex, by level.
     pub nodes: Vec<Node>,
     /// What was done at vertices of valence 2 and at poles, by vertex.

@@ -1,12 +1,12 @@
-//! A cage made ready: turned, near the origin, its lenses seen to, and of quads.
+//! A cage made ready: turned, near the origin, its lenses seen to.
 
 use super::{ConvertError, Method, Options, Packing};
 use crate::g2_caps::Uncapped;
 use crate::lens::{self, Cap, PolarFaces, TreatedLens};
 use crate::math::Vec3;
-use crate::mesh::{ControlMesh, FaceId, HalfedgeId, Note, Place, Topology, VertexId};
+use crate::mesh::{ControlMesh, HalfedgeId, Note, Place, Topology, VertexId};
 use crate::patch::Adaptive;
-use crate::pccm::PccmError;
+use crate::pccm::{self, PccmError};
 use crate::rules::Level;
 
 /// A cage made ready.
@@ -14,7 +14,7 @@ pub(super) struct Source {
     pub(super) centre: Vec3,
     /// Diagonal of the cage's bounding box.
     pub(super) size: f64,
-    /// The cage, and its refinement where it has other polygons than quads.
+    /// The cage, not yet refined.
     pub(super) adaptive: Adaptive,
     pub(super) cage_faces: usize,
     /// In terms of the cage as it was made ready.
@@ -22,7 +22,7 @@ pub(super) struct Source {
     /// Edges of that cage.
     pub(super) seams: Vec<[u32; 2]>,
     pub(super) lenses: Vec<TreatedLens>,
-    /// Where vertices of the quads come from.
+    /// Where its vertices come from.
     pub(super) origins: lens::Origins,
     /// Refinements before that.
     pub(super) steps: u32,
@@ -80,45 +80,40 @@ impl Source {
         let points = points.into_iter().map(|p| p - centre).collect();
         let treated = treated(&ControlMesh { points, ..mesh.clone() }, options)?;
 
-        let topology = treated.level.topology();
-        let is_quads = topology.is_quads();
-        let origins = if is_quads { treated.origins } else { treated.origins.refined(topology) };
-        let faces: Vec<FaceId> = (0..topology.face_count() as u32).map(FaceId).collect();
-        let mut adaptive = Adaptive::new(treated.level, treated.mesh.points, treated.addresses);
-        if !is_quads {
-            adaptive.refine(&faces);
-        }
         Ok(Source {
             centre,
             size: low.distance(high),
-            adaptive,
+            adaptive: Adaptive::new(treated.level, treated.mesh.points, treated.addresses),
             cage_faces: mesh.faces.len(),
             caps: treated.caps,
             seams: treated.edges,
             lenses: treated.lenses,
-            origins,
+            origins: treated.origins,
             steps: treated.steps,
         })
     }
 
-    /// The level whose faces are all quads, and its vertices.
-    pub(super) fn quads(&self) -> (&Level, &[Vec3]) {
-        let last = self.adaptive.last();
-        (&last.level, &last.points)
+    pub(super) fn cage(&self) -> &Level {
+        &self.adaptive.levels()[0].level
     }
 
-    /// The number of that level.
-    pub(super) fn quads_level(&self) -> usize {
-        self.adaptive.levels().len() - 1
+    pub(super) fn cage_points(&self) -> &[Vec3] {
+        &self.adaptive.levels()[0].points
     }
 
     /// The halfedges of a level along edges that are to stay edges.
     pub(super) fn seams(&self, adaptive: &Adaptive, number: usize) -> Vec<HalfedgeId> {
         let topology = adaptive.levels()[0].level.topology();
         let first = self.seams.iter().filter_map(|&vertices| find_halfedge(topology, vertices));
-        let mut found: Vec<HalfedgeId> = first.collect();
+        let mut found: Vec<HalfedgeId> = first.chain(pccm::curves(self.cage())).collect();
         for number in 0..number {
-            found = found.into_iter().filter_map(|h| adaptive.halves(number, h)).flatten().collect();
+            let topology = adaptive.levels()[number].level.topology();
+            // One of its faces may have been left behind.
+            let halves = |h: HalfedgeId| {
+                let sides = std::iter::once(h).chain(topology.twin(h));
+                sides.filter_map(|h| adaptive.halves(number, h)).next()
+            };
+            found = found.into_iter().filter_map(halves).flatten().collect();
         }
         found
     }
@@ -134,11 +129,6 @@ impl Source {
             "the cage was refined {times}, to make room around vertices of valence 2 such as {vertex}"
         );
         Some(Note { code: "lens_refined", message, place: Some(Place::Vertex(vertex.0)) })
-    }
-
-    /// The cage alone, without the refinement that makes quads of all faces.
-    pub(super) fn adaptive_cage(&self) -> Adaptive {
-        self.adaptive.first_level()
     }
 
     /// A place of the cage that was made ready, in terms of the cage that was given.
@@ -160,14 +150,14 @@ impl Source {
         let message = format!("{why}; its faces are smoothed by PCCM, so that curvature jumps there");
         Note { code: "no_cap", message, place: Some(place) }
     }
+}
 
-    /// A note about a vertex of the quads, in terms of the cage that was given.
-    pub(super) fn told(&self, note: &Note) -> Note {
-        let Some(Place::Vertex(vertex)) = note.place else { return note.clone() };
-        let first = self.origins.nearest(VertexId(vertex)).0;
-        let message = note.message.replace(&format!(" {vertex} "), &format!(" {first} "));
-        Note { message, place: Some(Place::Vertex(first)), ..*note }
-    }
+/// A note about a vertex in terms of the cage that was given.
+pub(super) fn told_note(note: &Note, origins: &lens::Origins) -> Note {
+    let Some(Place::Vertex(vertex)) = note.place else { return note.clone() };
+    let first = origins.nearest(VertexId(vertex)).0;
+    let message = note.message.replace(&format!(" {vertex} "), &format!(" {first} "));
+    Note { message, place: Some(Place::Vertex(first)), ..*note }
 }
 
 /// A refusal in terms of the cage that was given.

@@ -4,6 +4,7 @@
 //! cap, and the rest is refined no more than it needs. Faces of different levels meet in T vertices.
 
 use super::site::{Obstacle, Site, is_regular, site};
+use super::weights;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::patch::{Adaptive, AdaptiveLevel};
 
@@ -105,7 +106,13 @@ impl<'a> Found<'a> {
                 if !fan().any(|h| self.left[topology.face(h).index()]) {
                     continue;
                 }
-                match site(level, points, vertex, sector) {
+                let found = site(level, points, vertex, sector).and_then(|site| match site {
+                    Some(site) if weights(site.class).is_none() => {
+                        Err(Obstacle::TooManyFaces { vertex, faces: sector.faces })
+                    }
+                    other => Ok(other),
+                });
+                match found {
                     Ok(None) => {}
                     Ok(Some(site)) if level_of(vertices[vertex.index()]) <= number as u32 => {
                         self.take(&site.halfedges);

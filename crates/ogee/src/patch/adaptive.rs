@@ -67,12 +67,6 @@ impl Adaptive {
         Adaptive { origins: first.vertices.iter().map(|&v| Place::Vertex(v)).collect(), levels: vec![first] }
     }
 
-    /// The cage alone.
-    pub(crate) fn first_level(&self) -> Adaptive {
-        let first = AdaptiveLevel { passed_on: Vec::new(), ..self.levels[0].clone() };
-        Adaptive { origins: self.origins[..first.vertices.len()].to_vec(), levels: vec![first] }
-    }
-
     /// The levels so far.
     pub(crate) fn levels(&self) -> &[AdaptiveLevel] {
         &self.levels
@@ -98,7 +92,9 @@ impl Adaptive {
         let number = self.levels.len() - 1;
         let parent = &self.levels[number];
         let topology = parent.level.topology();
-        let faces = with_ring(&parent.level, wanted);
+        // Chaikin's rule and the faces at meetings of curves look one face further.
+        let rings = if parent.level.is_chaikin() || parent.level.has_slices() { 2 } else { 1 };
+        let faces = (0..rings).fold(wanted.to_vec(), |faces, _| with_ring(&parent.level, &faces));
         let whole = faces.len() == topology.face_count();
         let part = (!whole).then(|| Neighbourhood::new(&parent.level, &faces));
         let (own, points) = match &part {

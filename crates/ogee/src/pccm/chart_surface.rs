@@ -25,7 +25,7 @@ pub(crate) struct Pieces<'a> {
     /// Caps by quad and corner.
     caps: BTreeMap<(u32, u32), &'a Cap>,
     /// For each quad the level from which on it is made of bicubic cells away from irregular corners: 0, or more where
-    /// a semi-sharp crease touches it, or a quad at a meeting of curves.
+    /// a semi-sharp crease touches it, another polygon, or a quad at a meeting of curves.
     settled: Vec<u32>,
 }
 
@@ -38,7 +38,10 @@ impl<'a> Pieces<'a> {
                 (level, data) = level.refine_points(&data);
             }
             let cells = Cells::new(base, &level, depth);
-            nets.push(par::map(patches.nets.len(), |quad| cells.layered_net(quad as u32, &data)));
+            nets.push(par::map(patches.nets.len(), |quad| {
+                let converted = !patches.nets[quad].cells().is_empty();
+                if converted { cells.layered_net(quad as u32, &data) } else { patches.nets[quad].clone() }
+            }));
         }
         let caps = patches.caps.iter().map(|cap| ((cap.quad, cap.corner), cap)).collect();
         Pieces { patches, layer, nets, caps, settled: settled_levels(base) }
@@ -275,8 +278,8 @@ fn places<const DEGREE: usize>(knots: &KnotVector) -> Vec<Place<DEGREE>> {
         .collect()
 }
 
-/// For each quad the number of steps after which no finite sharpness is left at its corners, and it touches no quad at a
-/// meeting of curves.
+/// For each face the number of steps after which no finite sharpness is left at its corners, and it touches no polygon
+/// but quads and no quad at a meeting of curves.
 fn settled_levels(base: &Level) -> Vec<u32> {
     let topology = base.topology();
     let mut settled = vec![0; topology.face_count()];
@@ -296,6 +299,10 @@ fn settled_levels(base: &Level) -> Vec<u32> {
     }
     for (slice, _) in base.slices() {
         topology.halfedges(slice).for_each(|h| touch(topology.origin(h), 1.0));
+    }
+    let polygons = (0..topology.face_count() as u32).map(FaceId).filter(|&f| topology.face_size(f) != 4);
+    for h in polygons.flat_map(|f| topology.halfedges(f)) {
+        touch(topology.origin(h), 1.0);
     }
     settled
 }

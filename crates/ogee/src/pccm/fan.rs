@@ -86,23 +86,21 @@ impl Fan {
 /// The coefficient arrays of all patches, seen from corners.
 #[derive(Clone, Debug)]
 pub(crate) struct Arrays {
+    /// The last place in both directions.
+    pub(crate) last: usize,
     pub(crate) patches: Vec<Grid<Vec3>>,
 }
 
 impl Arrays {
-    fn last(&self) -> usize {
-        self.patches[0].rows() - 1
-    }
-
     /// What patch `i` of the fan has at `(a, b)` of its own view.
     pub(crate) fn get(&self, fan: &Fan, i: usize, a: usize, b: usize) -> Vec3 {
         let (patch, k) = fan.patch(i);
-        self.patches[patch][view(k, a, b, self.last())]
+        self.patches[patch][view(k, a, b, self.last)]
     }
 
     pub(crate) fn set(&mut self, fan: &Fan, i: usize, a: usize, b: usize, value: Vec3) {
         let (patch, k) = fan.patch(i);
-        let at = view(k, a, b, self.last());
+        let at = view(k, a, b, self.last);
         self.patches[patch][at] = value;
     }
 

@@ -91,9 +91,14 @@ pub(crate) fn meetings(base: &Level) -> Vec<MeetingFan> {
     vertices.into_iter().filter_map(fan).collect()
 }
 
-/// The caps of all meetings, and where they are not smooth. `fine` is the base refined `level` times.
-pub(crate) fn caps(base: &Level, fine: &Level, fine_points: &[Vec3], level: u32) -> (Vec<Cap>, Vec<Kink>) {
-    let fans = meetings(base);
+/// The caps of meetings, and where they are not smooth. `fine` is the base refined `level` times.
+pub(crate) fn caps(
+    base: &Level,
+    fans: &[MeetingFan],
+    fine: &Level,
+    fine_points: &[Vec3],
+    level: u32,
+) -> (Vec<Cap>, Vec<Kink>) {
     if fans.is_empty() {
         return (Vec::new(), Vec::new());
     }
@@ -125,7 +130,7 @@ pub(crate) fn caps(base: &Level, fine: &Level, fine_points: &[Vec3], level: u32)
         nodes
     };
     let (mut caps, mut kinks) = (Vec::new(), Vec::new());
-    for fan in &fans {
+    for fan in fans {
         let nodes: Vec<Grid<Vec3>> = fan.halfedges.iter().map(|&h| nodes_of(h)).collect();
         let spokes = spokes(&nodes, fan.t);
         let (spokes, shares, angle) = shares(spokes);

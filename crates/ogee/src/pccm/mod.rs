@@ -16,27 +16,35 @@ mod constants;
 mod corner;
 mod edge;
 mod fan;
+mod group;
 mod meeting;
 mod net;
 mod packing;
+mod part;
+mod plan;
 mod requirements;
 
 pub use bi5::to_quintic_patches;
 pub use fan::CornerClass;
+pub use group::to_group_patches;
 pub use meeting::Cap;
+pub use plan::{Group, Plan, plan};
 pub use requirements::{PccmError, Requirement, SHARPEST, least_level};
 
-pub(crate) use chart_surface::Pieces;
+pub(crate) use group::Converted;
 pub(crate) use meeting::{CAP_CELLS, meetings};
 pub(crate) use net::{Cells, inserted, view};
-pub(crate) use packing::{Chart, Placed, pack, unpacked};
+pub(crate) use packing::{Chart, Placed, curves, pack, unpacked};
+pub(crate) use part::Part;
 
 use crate::math::{Grid, Vec3, par};
-use crate::mesh::{HalfedgeId, Note, Place, VertexId};
+use crate::mesh::{FaceId, HalfedgeId, Note, Place, VertexId};
 use crate::nurbs::KnotVector;
 use crate::rules::Level;
+use chart_surface::Pieces;
 use edge::FarEnd;
 use fan::{Arrays, Fan};
+use meeting::MeetingFan;
 
 /// Where an edge curve is quadratic.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -121,22 +129,32 @@ pub fn to_patches(base: &Level, points: &[Vec3], options: &Options) -> Result<Pa
             because: least.because,
         });
     }
+    let faces: Vec<FaceId> = (0..base.topology().face_count() as u32).map(FaceId).collect();
+    Ok(smooth(&Part::new(base, 0, &faces), points, options))
+}
+
+/// The patches of a part: those of quads that are not converted have no coefficients.
+fn smooth(part: &Part<'_>, points: &[Vec3], options: &Options) -> Patches {
+    let base = part.base();
     let (mut fine, mut fine_points) = base.refine_points(points);
     for _ in 1..options.level {
         (fine, fine_points) = fine.refine_points(&fine_points);
     }
-    Ok(smooth(base, &fine, &fine_points, options))
-}
-
-fn smooth(base: &Level, fine: &Level, fine_points: &[Vec3], options: &Options) -> Patches {
-    let quads = base.topology().face_count();
     let knots = net::knots(options.layer, options.level);
-    let cells = Cells::new(base, fine, options.level);
-    let nets = par::map(quads, |quad| cells.layered_net(quad as u32, fine_points));
+    let cells = Cells::new(base, &fine, options.level);
+    let of_converted = |make: &(dyn Fn(usize) -> Grid<Vec3> + Sync)| {
+        let nothing = || Grid::from_fn(0, 0, |_, _| Vec3::ZERO);
+        par::map(part.quad_count(), |quad| if part.is_converted(quad) { make(quad) } else { nothing() })
+    };
+    let nets = of_converted(&|quad| cells.layered_net(quad as u32, &fine_points));
     let insertion = net::Insertion::new(&knots);
-    let inserted = Arrays { patches: par::map(quads, |quad| insertion.apply(&nets[quad])) };
+    let inserted = Arrays {
+        last: knots.coefficients() - 1,
+        patches: of_converted(&|quad| insertion.apply(&nets[quad])),
+    };
 
-    let (mut fans, classes) = fans(base);
+    let meetings = part.meetings();
+    let (mut fans, classes) = fans(part, &meetings);
     for fan in &mut fans {
         corner::place(fan, &nets, &inserted, options);
     }
@@ -152,8 +170,8 @@ fn smooth(base: &Level, fine: &Level, fine_points: &[Vec3], options: &Options) -
         }
         Layer::Second => smooth_second_layer(base, &mut fans, options, &inserted, &mut arrays),
     }
-    weld(base, &mut arrays);
-    let (caps, kinks) = meeting::caps(base, fine, fine_points, options.level);
+    weld(part, &mut arrays);
+    let (caps, kinks) = meeting::caps(base, &meetings, &fine, &fine_points, options.level);
     let (mut broken, mut notes) = findings(base, &fans);
     for kink in kinks {
         broken.extend(base.topology().ring(kink.vertex));
@@ -163,11 +181,12 @@ fn smooth(base: &Level, fine: &Level, fine_points: &[Vec3], options: &Options) -
 }
 
 /// All fans that are not regular, and the class of every corner of every quad.
-fn fans(base: &Level) -> (Vec<Fan>, Vec<[CornerClass; 4]>) {
+fn fans(part: &Part<'_>, meetings: &[MeetingFan]) -> (Vec<Fan>, Vec<[CornerClass; 4]>) {
+    let base = part.base();
     let topology = base.topology();
     let mut fans = Vec::new();
-    let mut classes = vec![[CornerClass::Regular; 4]; topology.face_count()];
-    for h in meetings(base).into_iter().flat_map(|meeting| meeting.halfedges) {
+    let mut classes = vec![[CornerClass::Regular; 4]; part.quad_count()];
+    for h in meetings.iter().flat_map(|meeting| &meeting.halfedges) {
         classes[h.index() / 4][h.index() % 4] = CornerClass::Meeting;
     }
     for v in (0..topology.vertex_count() as u32).map(VertexId) {
@@ -177,8 +196,10 @@ fn fans(base: &Level) -> (Vec<Fan>, Vec<[CornerClass; 4]>) {
         for sector in sectors {
             let class = Fan::classify(base, v, sector, sharp_edges);
             let halfedges: Vec<HalfedgeId> = base.sector_halfedges(sector).collect();
+            // A fan is converted as a whole or not at all.
+            let converted = halfedges.iter().all(|h| part.is_converted(h.index() / 4));
             let is_meeting = |h: &HalfedgeId| classes[h.index() / 4][h.index() % 4] == CornerClass::Meeting;
-            if class == CornerClass::Regular || halfedges.first().is_some_and(is_meeting) {
+            if class == CornerClass::Regular || !converted || halfedges.first().is_some_and(is_meeting) {
                 continue;
             }
             for h in &halfedges {
@@ -235,20 +256,21 @@ fn smooth_second_layer(
 }
 
 /// Makes shared boundary curves and corners equal bit for bit: computed twice they agree to rounding only.
-fn weld(base: &Level, arrays: &mut Arrays) {
-    let topology = base.topology();
-    let last = arrays.patches.first().map_or(0, |patch| patch.rows() - 1);
-    for h in (0..topology.halfedge_count() as u32).map(HalfedgeId) {
-        let Some(twin) = topology.twin(h).filter(|twin| h < *twin) else { continue };
+fn weld(part: &Part<'_>, arrays: &mut Arrays) {
+    let topology = part.base().topology();
+    let last = arrays.last;
+    let converted = |h: &HalfedgeId| part.is_converted(h.index() / 4);
+    for h in (0..topology.halfedge_count() as u32).map(HalfedgeId).filter(converted) {
+        let Some(twin) = topology.twin(h).filter(|twin| h < *twin && converted(twin)) else { continue };
         for s in 1..last {
             let value = arrays.patches[h.index() / 4][view(h.index() % 4, s, 0, last)];
             arrays.patches[twin.index() / 4][view(twin.index() % 4, last - s, 0, last)] = value;
         }
     }
     for v in (0..topology.vertex_count() as u32).map(VertexId) {
-        let Some(first) = topology.outgoing(v) else { continue };
+        let Some(first) = topology.ring(v).find(converted) else { continue };
         let value = arrays.patches[first.index() / 4][view(first.index() % 4, 0, 0, last)];
-        for h in topology.ring(v) {
+        for h in topology.ring(v).filter(converted) {
             arrays.patches[h.index() / 4][view(h.index() % 4, 0, 0, last)] = value;
         }
     }

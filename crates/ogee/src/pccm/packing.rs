@@ -6,11 +6,12 @@
 //! After Eppstein, Goodrich, Kim and Tamstorf, Motorcycle graphs: canonical quad mesh partitioning (2008);
 //! `docs/methods/packing.md`.
 
+use super::requirements::is_irregular;
 use super::{CornerClass, meetings};
 use crate::math::Grid;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::rules::Level;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A quad inside a chart: its corner number `turn` stands at the `(0, 0)` corner of its cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,12 +39,33 @@ pub(crate) fn unpacked(base: &Level) -> Vec<Chart> {
     quads.map(|quad| Chart { quads: Grid::from_fn(1, 1, |_, _| Placed { quad, turn: 0 }) }).collect()
 }
 
+/// The ports of every meeting, straight on to the next irregular vertex, boundary or crease, in halfedges.
+pub(crate) fn curves(cage: &Level) -> Vec<HalfedgeId> {
+    let topology = cage.topology();
+    let meetings = meetings(cage);
+    let met: BTreeSet<VertexId> = meetings.iter().map(|fan| fan.vertex).collect();
+    let mut along = Vec::new();
+    for mut h in meetings.into_iter().flat_map(|fan| fan.halfedges.into_iter().step_by(2)) {
+        // Once round at most: a curve may come back to where it began.
+        for _ in 0..topology.edge_count() {
+            along.push(h);
+            let end = topology.target(h);
+            let sharp = topology.is_boundary(end) || topology.ring(end).any(|h| cage.is_sharp(h));
+            if sharp || met.contains(&end) || is_irregular(cage, end) {
+                break;
+            }
+            let Some(across) = topology.twin(topology.next(h)) else { break };
+            h = topology.next(across);
+        }
+    }
+    along
+}
+
 /// Few rectangles that cover all visible quads; every irregular vertex is a corner of all its charts.
 ///
-/// No chart crosses a curve that leaves a meeting straight on through regular vertices, nor an edge of `seams`.
+/// No chart crosses an edge of `seams`. Classes are those of quads, which come before other polygons.
 pub(crate) fn pack(base: &Level, classes: &[[CornerClass; 4]], seams: &[HalfedgeId]) -> Vec<Chart> {
     let mut traces = Traces::new(base);
-    traces.follow_curves(classes);
     seams.iter().for_each(|&h| traces.separate(h));
     traces.fire_from_irregular(classes);
     // Faces whose regions are still to be looked at, the first ones last.
@@ -106,31 +128,13 @@ impl<'a> Traces<'a> {
         self.visited[topology.target(h).index()] = true;
     }
 
-    /// Separates along the ports of every meeting, straight on to the next irregular vertex, boundary or crease.
-    fn follow_curves(&mut self, classes: &[[CornerClass; 4]]) {
-        let topology = self.base.topology();
-        let regular = |h: HalfedgeId| classes[h.index() / 4][h.index() % 4] == CornerClass::Regular;
-        let ports = meetings(self.base).into_iter().flat_map(|fan| fan.halfedges.into_iter().step_by(2));
-        for mut h in ports {
-            // Once round at most: a curve may come back to where it began.
-            for _ in 0..topology.edge_count() {
-                self.separate(h);
-                let end = topology.target(h);
-                let goes_on = topology.ring(end).all(|h| regular(h) && !self.base.is_sharp(h));
-                let across =
-                    topology.twin(topology.next(h)).filter(|_| goes_on && !topology.is_boundary(end));
-                let Some(across) = across else { break };
-                h = topology.next(across);
-            }
-        }
-    }
-
     fn fire_from_irregular(&mut self, classes: &[[CornerClass; 4]]) {
         let topology = self.base.topology();
         let mut start = Vec::new();
         for v in (0..topology.vertex_count() as u32).map(VertexId) {
-            let corner = |h: HalfedgeId| classes[h.index() / 4][h.index() % 4];
-            let irregular = topology.ring(v).any(|h| corner(h) != CornerClass::Regular);
+            let corner = |h: HalfedgeId| classes.get(h.index() / 4).map(|corners| corners[h.index() % 4]);
+            let regular = |h| corner(h).is_none_or(|class| class == CornerClass::Regular);
+            let irregular = !topology.ring(v).all(regular);
             if irregular || self.is_reentrant(v) {
                 self.visited[v.index()] = true;
                 start.extend(topology.ring(v).filter(|&h| self.is_open(h)));

@@ -93,18 +93,18 @@ impl Level {
         level
     }
 
-    /// The level with other faces hidden, in order.
-    pub(crate) fn with_hidden(mut self, hidden: Vec<FaceId>) -> Level {
-        self.hidden = hidden;
-        self
-    }
-
     /// The level with rules where curves meet.
     pub(crate) fn with_slices(mut self, slices: Sparse<Slice>) -> Level {
         let centre = |slice: Slice| self.topology.origin(slice.halfedge).0;
         let stay = slices.iter().map(|(_, slice)| (centre(slice), VertexRule::Of(VertexMask::Corner)));
         self.vertex_rules = Sparse::new(self.vertex_rules.iter().chain(stay).collect());
         self.slices = slices;
+        self
+    }
+
+    /// The level with other hidden faces, given in order.
+    pub(crate) fn with_hidden(mut self, hidden: Vec<FaceId>) -> Level {
+        self.hidden = hidden;
         self
     }
 
