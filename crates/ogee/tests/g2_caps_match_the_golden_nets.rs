@@ -39,6 +39,8 @@ struct Golden {
 fn caps() -> Vec<Golden> {
     documents("g2_caps")
         .into_iter()
+        // Whole meshes are another claim's.
+        .filter(|(_, document)| !document["nets"].is_null())
         .map(|(name, document)| {
             let class = class(&name, &document);
             let points = points(&document["points"]);
