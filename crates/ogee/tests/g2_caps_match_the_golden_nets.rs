@@ -27,16 +27,26 @@ fn size(points: &[Vec3]) -> f64 {
     points.iter().fold(low, |high, &p| high.max(p)).distance(low)
 }
 
-/// Name, class, points and nets of every document.
-fn caps() -> Vec<(String, CapClass, Vec<Vec3>, Vec<Grid<Vec3>>, Value)> {
+/// A document, and what we make of its points.
+struct Golden {
+    name: String,
+    document: Value,
+    class: CapClass,
+    size: f64,
+    nets: Vec<Grid<Vec3>>,
+}
+
+fn caps() -> Vec<Golden> {
     documents("g2_caps")
         .into_iter()
+        // Whole meshes are another claim's.
+        .filter(|(_, document)| !document["nets"].is_null())
         .map(|(name, document)| {
             let class = class(&name, &document);
             let points = points(&document["points"]);
             assert_eq!(points.len(), class.columns(), "{name}");
             let nets = nets(&weights(class).unwrap(), &points);
-            (name, class, points, nets, document)
+            Golden { name, document, class, size: size(&points), nets }
         })
         .collect()
 }
@@ -44,7 +54,7 @@ fn caps() -> Vec<(String, CapClass, Vec<Vec3>, Vec<Grid<Vec3>>, Value)> {
 #[test]
 fn nets_match() {
     let mut compared = 0;
-    for (name, class, given, nets, document) in caps() {
+    for Golden { name, document, class, size, nets } in caps() {
         let mut worst: f64 = 0.0;
         assert_eq!((list(&document["nets"]).len(), nets.len()), (class.sectors(), class.sectors()));
         for (theirs, ours) in list(&document["nets"]).iter().zip(&nets) {
@@ -52,8 +62,8 @@ fn nets_match() {
             assert_eq!(theirs.len(), ours.cells().len());
             worst = theirs.iter().zip(ours.cells()).fold(worst, |worst, (a, b)| worst.max(a.distance(*b)));
         }
-        println!("{name}: {:e}", worst / size(&given));
-        assert!(worst <= 1e-11 * size(&given), "{name}: {worst:e}");
+        println!("{name}: {:e}", worst / size);
+        assert!(worst <= 1e-11 * size, "{name}: {worst:e}");
         compared += 1;
     }
     assert_eq!(compared, 9);
@@ -61,8 +71,7 @@ fn nets_match() {
 
 #[test]
 fn samples_match() {
-    for (name, _, given, nets, document) in caps() {
-        let size = size(&given);
+    for Golden { name, document, size, nets, .. } in caps() {
         let mut worst: f64 = 0.0;
         for sample in list(&document["samples"]) {
             let net = nets[index(&sample["sector"]) as usize].clone();

@@ -55,6 +55,54 @@ fn two_refinements_are_enough() {
     assert!(count > 400, "{count}");
 }
 
+/// The shipped cages, without their tags.
+fn models() -> Vec<(String, ControlMesh)> {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models");
+    let mut models = Vec::new();
+    for path in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+        if path.extension().is_none_or(|extension| extension != "obj") {
+            continue;
+        }
+        let (mut points, mut faces) = (Vec::new(), FaceList::new());
+        for line in std::fs::read_to_string(&path).unwrap().lines() {
+            let mut words = line.split_whitespace();
+            match words.next() {
+                Some("v") => {
+                    let [x, y, z] = std::array::from_fn(|_| words.next().unwrap().parse().unwrap());
+                    points.push(Vec3::new(x, y, z));
+                }
+                Some("f") => {
+                    let corner = |word: &str| word.split('/').next().unwrap().parse::<u32>().unwrap() - 1;
+                    faces.push(&words.map(corner).collect::<Vec<_>>());
+                }
+                _ => {}
+            }
+        }
+        models.push((
+            path.file_stem().unwrap().to_string_lossy().into_owned(),
+            ControlMesh::new(points, faces),
+        ));
+    }
+    models.sort_by(|a, b| a.0.cmp(&b.0));
+    models
+}
+
+#[test]
+fn shipped_cages_have_caps_wherever_they_are_irregular() {
+    let mut count = 0;
+    for (name, mesh) in models() {
+        let (level, points) = levels(&mesh, 2).pop().unwrap();
+        for (v, found) in sites(&level, &points) {
+            match found {
+                Ok(found) => count += usize::from(found.is_some()),
+                Err(Obstacle::ValenceTwo { .. } | Obstacle::ParallelEdges { .. }) => {}
+                Err(obstacle) => panic!("{name}, vertex {v}: {obstacle}"),
+            }
+        }
+    }
+    assert!(count > 400, "{count}");
+}
+
 #[test]
 fn caps_come_from_whatever_can_be_seen_to_alone() {
     let found = |mesh: &ControlMesh, refinements: usize| {
