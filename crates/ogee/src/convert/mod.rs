@@ -2,27 +2,32 @@
 //!
 //! So that the command line, and whatever else calls it, make the same part from the same cage.
 
+mod bicubic;
 mod bodies;
 mod curves;
 mod deviation;
 mod measure;
 mod outline;
 mod part;
+mod quintic;
 mod sew;
+mod source;
 
 pub use curves::largest_distance_to_edges;
 pub use part::{Body, Method, Part, Report};
 
-use crate::lens::{self, Cap, LensError, PolarFaces, TreatedLens};
-use crate::math::{Grid, Vec3, par};
-use crate::mesh::{ControlMesh, HalfedgeId, Meeting, Note, Place, Topology, TopologyError, VertexId, notes};
-use crate::nurbs::{FaceAddress, KnotVector, NurbsSurface};
-use crate::pccm::{self, Chart, Layer, PccmError, Pieces, least_level, pack, unpacked};
+use crate::lens::{self, LensError};
+use crate::math::Vec3;
+use crate::mesh::{ControlMesh, FaceId, HalfedgeId, Meeting, Note, TopologyError, VertexId, notes};
+use crate::nurbs::NurbsSurface;
+use crate::patch::Adaptive;
+use crate::pccm::{self, Chart, Layer, PccmError, least_level};
 use crate::refine::TooDeep;
-use crate::rules::Level;
-use deviation::{Measured, QuadCell};
+use bicubic::Bicubic;
 use measure::Continuity;
 use outline::{Face, Seams};
+use quintic::Quintic;
+use source::{Source, told};
 
 /// The greatest level that [`to_part`] tries when asked for a deviation, and accepts when asked for a level.
 pub const DEEPEST_LEVEL: u32 = 6;
@@ -182,36 +187,109 @@ pub fn to_part(mesh: &ControlMesh, options: &Options) -> Result<Part, ConvertErr
     if let (Method::Bi5, Some(&Meeting { vertex, .. })) = (options.method, mesh.meetings.first()) {
         return Err(ConvertError::Meeting { vertex });
     }
-    if source.caps.is_empty() && source.quads.hidden_faces().len() == source.quads.topology().face_count() {
+    if source.caps.is_empty() && source.adaptive.last().visible_faces().next().is_none() {
         return Err(ConvertError::NoSurface);
     }
-    let seams = source.seams();
-    let least = source.least_level(options.method).map_err(|error| told(error, &source.origins))?;
     if let Some(level) = options.level.filter(|&level| level > DEEPEST_LEVEL) {
         return Err(ConvertError::LevelTooHigh { level });
     }
-    let first = options.level.unwrap_or(least);
-    let mut level = first;
+    let conversion = by_level(&source, options)?;
+    Ok(finish(&source, &conversion, options, mesh))
+}
+
+/// Converts with one level for all faces, the least that will do.
+fn by_level<'a>(source: &'a Source, options: &Options) -> Result<Conversion<'a>, ConvertError> {
+    let (quads, _) = source.quads();
+    let least = match options.method {
+        Method::Pccm => least_level(quads, Layer::Second),
+        Method::PccmFirst => least_level(quads, Layer::First),
+        Method::Bi5 => Ok(pccm::Requirement { level: 0, because: "" }),
+    };
+    let least = least.map_err(|error| told(error, &source.origins))?.level;
+    let mut level = options.level.unwrap_or(least);
     loop {
-        check_memory(&source, options, level)?;
-        let patches = Converted::new(&source, options.method, level)?;
-        let deviation = patches.deviation();
+        check_memory(source, options, level)?;
+        let construction = match options.method {
+            Method::Pccm => Construction::Bicubic(Bicubic::new(source, Layer::Second, level)?),
+            Method::PccmFirst => Construction::Bicubic(Bicubic::new(source, Layer::First, level)?),
+            Method::Bi5 => Construction::Quintic(Quintic::new(source, level)?),
+        };
+        let deviation = construction.deviation();
         match options.max_deviation {
             Some(wanted) if deviation >= wanted && level < DEEPEST_LEVEL && options.level.is_none() => {
-                level += 1
+                level += 1;
             }
             Some(wanted) if deviation >= wanted => {
                 return Err(ConvertError::Deviation { wanted, reached: deviation, level });
             }
-            _ => return Ok(finish(&source, patches, deviation, options, mesh, &seams)),
+            _ => return Ok(Conversion { construction, level, deviation }),
+        }
+    }
+}
+
+/// A cage in patches, measured.
+struct Conversion<'a> {
+    construction: Construction<'a>,
+    level: u32,
+    deviation: f64,
+}
+
+enum Construction<'a> {
+    Bicubic(Bicubic<'a>),
+    Quintic(Quintic),
+}
+
+/// A chart of a level of refinement, with its surface, one unit of knot per quad.
+struct PlacedChart {
+    level: usize,
+    chart: Chart,
+    surface: NurbsSurface,
+}
+
+impl Construction<'_> {
+    fn deviation(&self) -> f64 {
+        match self {
+            Construction::Bicubic(bicubic) => bicubic.deviation(),
+            Construction::Quintic(quintic) => quintic.deviation(),
+        }
+    }
+
+    fn adaptive(&self) -> &Adaptive {
+        match self {
+            Construction::Bicubic(bicubic) => bicubic.adaptive(),
+            Construction::Quintic(quintic) => quintic.adaptive(),
+        }
+    }
+
+    fn charts(&self, packing: Packing) -> Vec<PlacedChart> {
+        match self {
+            Construction::Bicubic(bicubic) => bicubic.charts(packing),
+            Construction::Quintic(quintic) => quintic.charts(),
+        }
+    }
+
+    /// Halfedges of a level whose edge is not smooth next to their origin.
+    fn broken(&self) -> Vec<(usize, HalfedgeId)> {
+        match self {
+            Construction::Bicubic(bicubic) => bicubic.broken(),
+            Construction::Quintic(_) => Vec::new(),
+        }
+    }
+
+    /// In terms of the cage that was given.
+    fn notes(&self) -> Vec<Note> {
+        match self {
+            Construction::Bicubic(bicubic) => bicubic.notes(),
+            Construction::Quintic(_) => Vec::new(),
         }
     }
 }
 
 /// Asks whether the refined mesh and the coefficients of all patches fit.
 fn check_memory(source: &Source, options: &Options, level: u32) -> Result<(), TooDeep> {
-    source.quads.check_depth(level, u64::MAX)?;
-    let quads = source.quads.topology().face_count() as u128;
+    let (quads, _) = source.quads();
+    quads.check_depth(level, u64::MAX)?;
+    let quads = quads.topology().face_count() as u128;
     let bytes = |level: u32| match options.method {
         // Coefficients as inserted, as smoothed, as surfaces; nets of all levels; the refined mesh.
         Method::Pccm | Method::PccmFirst => {
@@ -235,326 +313,27 @@ const BYTES_PER_COEFFICIENT: u128 = 160;
 /// measured against the larger.
 const BYTES_PER_QUINTIC: u128 = 32_000;
 
-/// A cage made ready: turned, near the origin, of quads.
-struct Source {
-    centre: Vec3,
-    /// Diagonal of the cage's bounding box.
-    size: f64,
-    quads: Level,
-    points: Vec<Vec3>,
-    /// The cage itself, where its quads are those of its refinement.
-    cage: Option<Level>,
-    /// For each quad the piece of the cage that it is.
-    addresses: Vec<FaceAddress>,
-    cage_faces: usize,
-    /// In terms of the cage as it was made ready.
-    caps: Vec<Cap>,
-    /// Edges of that cage.
-    seams: Vec<[u32; 2]>,
-    lenses: Vec<TreatedLens>,
-    /// Where vertices of the quads come from.
-    origins: lens::Origins,
-    /// Refinements before that.
-    steps: u32,
-}
-
-/// A cage without vertices that patches have no rule for, as far as that is wanted.
-fn treated(mesh: &ControlMesh, options: &Options) -> Result<lens::Treated, ConvertError> {
-    let mut choices = options.lens;
-    if options.packing == Packing::Unpacked {
-        choices.faces = PolarFaces::PerSector;
-    }
-    if options.method == Method::Bi5 && choices.method == lens::Method::Auto {
-        choices.method = lens::Method::Merge;
-    }
-    let treated = lens::treat_following(mesh, &choices, &options.seams, options.memory.unwrap_or(u64::MAX))?;
-    let capped = treated.lenses.iter().find(|lens| lens.has_cap());
-    match capped {
-        Some(&TreatedLens { vertex, .. }) if options.method == Method::Bi5 => {
-            Err(ConvertError::Cap { vertex })
-        }
-        _ => Ok(treated),
-    }
-}
-
-fn check_seams(mesh: &ControlMesh, seams: &[[u32; 2]]) -> Result<(), ConvertError> {
-    if seams.is_empty() {
-        return Ok(());
-    }
-    let topology = Topology::new(mesh)?;
-    let is_edge = |&vertices: &[u32; 2]| {
-        vertices.iter().all(|&v| (v as usize) < topology.vertex_count())
-            && find_halfedge(&topology, vertices).is_some()
-    };
-    match seams.iter().copied().find(|vertices| !is_edge(vertices)) {
-        Some(vertices) => Err(ConvertError::Seam { vertices }),
-        None => Ok(()),
-    }
-}
-
-/// The halfedge between two vertices, in either direction.
-fn find_halfedge(topology: &Topology, [a, b]: [u32; 2]) -> Option<HalfedgeId> {
-    let leaves =
-        |from: u32, to: u32| topology.ring(VertexId(from)).find(|&h| topology.target(h) == VertexId(to));
-    leaves(a, b).or_else(|| leaves(b, a))
-}
-
-impl Source {
-    fn new(mesh: &ControlMesh, options: &Options) -> Result<Source, ConvertError> {
-        check_seams(mesh, &options.seams)?;
-        let points: Vec<Vec3> = mesh.points.iter().map(|&p| options.up.turn(p)).collect();
-        let first = points.first().copied().unwrap_or(Vec3::ZERO);
-        let [low, high] = points.iter().fold([first, first], |[low, high], &p| [low.min(p), high.max(p)]);
-        // Rounding grows with the distance from the origin.
-        let centre = low.lerp(high, 0.5);
-        let points = points.into_iter().map(|p| p - centre).collect();
-        let treated = treated(&ControlMesh { points, ..mesh.clone() }, options)?;
-
-        let cage = treated.level;
-        let mut source = Source {
-            centre,
-            size: low.distance(high),
-            cage_faces: mesh.faces.len(),
-            addresses: treated.addresses,
-            points: treated.mesh.points,
-            quads: cage.clone(),
-            cage: None,
-            caps: treated.caps,
-            seams: treated.edges,
-            lenses: treated.lenses,
-            origins: treated.origins,
-            steps: treated.steps,
-        };
-        let topology = cage.topology();
-        if !topology.is_quads() {
-            let halfedges = (0..topology.halfedge_count() as u32).map(HalfedgeId);
-            let corners = halfedges.map(|h| {
-                let face = topology.face(h);
-                let whole = source.addresses[face.index()];
-                whole.quarter(h.0 - topology.first(face).0)
-            });
-            source.addresses = corners.collect();
-            source.origins = source.origins.refined(topology);
-            (source.quads, source.points) = cage.refine_points(&source.points);
-            source.cage = Some(cage);
-        }
-        Ok(source)
-    }
-
-    /// Refinements from the cage with its caps to the quads.
-    fn cap_steps(&self) -> u32 {
-        u32::from(self.cage.is_some())
-    }
-
-    /// The halfedges of the quads along edges of the cage.
-    fn seams(&self) -> Vec<HalfedgeId> {
-        let topology = self.cage.as_ref().unwrap_or(&self.quads).topology();
-        let found = self.seams.iter().filter_map(|&vertices| find_halfedge(topology, vertices));
-        if self.cage.is_none() {
-            return found.collect();
-        }
-        // The two halves: the first side of quad h, and the last of the quad after it.
-        found.flat_map(|h| [HalfedgeId(4 * h.0), HalfedgeId(4 * topology.next(h).0 + 3)]).collect()
-    }
-
-    /// What refinement for the sake of lenses is worth saying.
-    fn refined_for_lenses(&self) -> Option<Note> {
-        let vertex = self.lenses.first().filter(|_| self.steps > 0)?.vertex;
-        let times = match self.steps {
-            1 => "once".to_owned(),
-            steps => format!("{steps} times"),
-        };
-        let message = format!(
-            "the cage was refined {times}, to make room around vertices of valence 2 such as {vertex}"
-        );
-        Some(Note { code: "lens_refined", message, place: Some(Place::Vertex(vertex.0)) })
-    }
-
-    fn least_level(&self, method: Method) -> Result<u32, PccmError> {
-        Ok(match method {
-            Method::Pccm => least_level(&self.quads, Layer::Second)?.level,
-            Method::PccmFirst => least_level(&self.quads, Layer::First)?.level,
-            Method::Bi5 => 0,
-        })
-    }
-
-    /// A note about a vertex of the quads, in terms of the cage that was given.
-    fn told(&self, note: &Note) -> Note {
-        let Some(Place::Vertex(vertex)) = note.place else { return note.clone() };
-        let first = self.origins.nearest(VertexId(vertex)).0;
-        let message = note.message.replace(&format!(" {vertex} "), &format!(" {first} "));
-        Note { message, place: Some(Place::Vertex(first)), ..*note }
-    }
-}
-
-/// A refusal in terms of the cage that was given.
-fn told(error: PccmError, origins: &lens::Origins) -> PccmError {
-    let edge = |a, b| origins.edge(a, b).unwrap_or([a, b].map(|v| origins.nearest(v)));
-    match error {
-        PccmError::Lens { vertex } => PccmError::Lens { vertex: origins.nearest(vertex) },
-        PccmError::SharpVertex { vertex } => PccmError::SharpVertex { vertex: origins.nearest(vertex) },
-        PccmError::SharpEdge { a, b } => {
-            let [a, b] = edge(a, b);
-            PccmError::SharpEdge { a, b }
-        }
-        PccmError::TooSharp { place: Place::Edge(a, b), sharpness } => {
-            let [a, b] = edge(VertexId(a), VertexId(b));
-            PccmError::TooSharp { place: Place::Edge(a.0, b.0), sharpness }
-        }
-        PccmError::TooSharp { place: Place::Vertex(vertex), sharpness } => {
-            let place = Place::Vertex(origins.nearest(VertexId(vertex)).0);
-            PccmError::TooSharp { place, sharpness }
-        }
-        // These name nothing, or a face, and all faces are quads by now.
-        error @ (PccmError::LevelTooLow { .. } | PccmError::NotQuads { .. } | PccmError::TooSharp { .. }) => {
-            error
-        }
-    }
-}
-
-/// Patches of all quads, by whichever method.
-struct Converted<'a> {
-    level: u32,
-    base: std::borrow::Cow<'a, Level>,
-    points: std::borrow::Cow<'a, [Vec3]>,
-    /// For each quad of the base that of the source.
-    source_quads: Vec<u32>,
-    /// One per quad of the base, in cells.
-    surfaces: Vec<NurbsSurface>,
-    kind: Kind,
-}
-
-enum Kind {
-    Bicubic { patches: pccm::Patches, layer: Layer },
-    Quintic,
-}
-
-impl<'a> Converted<'a> {
-    fn new(source: &'a Source, method: Method, level: u32) -> Result<Converted<'a>, ConvertError> {
-        use std::borrow::Cow;
-        let layer = match method {
-            Method::Pccm => Layer::Second,
-            Method::PccmFirst => Layer::First,
-            Method::Bi5 => return Converted::quintic(source, level),
-        };
-        let options = pccm::Options { layer, level, ..pccm::Options::default() };
-        let patches = pccm::to_patches(&source.quads, &source.points, &options)
-            .map_err(|error| told(error, &source.origins))?;
-        let surface = |net: &Grid<Vec3>| NurbsSurface {
-            u: patches.knots.clone(),
-            v: patches.knots.clone(),
-            net: net.clone(),
-        };
-        let mut surfaces: Vec<NurbsSurface> = patches.nets.iter().map(surface).collect();
-        if !patches.caps.is_empty() {
-            let pieces = Pieces::new(&source.quads, &source.points, &patches, layer);
-            for cap in &patches.caps {
-                surfaces[cap.quad as usize] = pieces.in_cells(cap.quad);
-            }
-        }
-        Ok(Converted {
-            level,
-            base: Cow::Borrowed(&source.quads),
-            points: Cow::Borrowed(&source.points),
-            source_quads: (0..patches.nets.len() as u32).collect(),
-            surfaces,
-            kind: Kind::Bicubic { patches, layer },
-        })
-    }
-
-    /// A quintic has no inner knots: a level means more patches.
-    fn quintic(source: &'a Source, level: u32) -> Result<Converted<'a>, ConvertError> {
-        use std::borrow::Cow;
-        let (mut base, mut points) = (Cow::Borrowed(&source.quads), Cow::Borrowed(&source.points[..]));
-        let mut origins = source.origins.clone();
-        for _ in 0..level {
-            origins = origins.refined(base.topology());
-            let (next, next_points) = base.refine_points(&points);
-            (base, points) = (Cow::Owned(next), Cow::Owned(next_points));
-        }
-        let nets = pccm::to_quintic_patches(&base, &points).map_err(|error| told(error, &origins))?;
-        let knots = KnotVector::from_multiplicities(5, [(0.0, 6), (1.0, 6)]);
-        let surfaces = nets.into_iter().map(|net| NurbsSurface { u: knots.clone(), v: knots.clone(), net });
-        let source_quads = (0..base.topology().face_count() as u32).map(|quad| quad >> (2 * level)).collect();
-        Ok(Converted { level, surfaces: surfaces.collect(), source_quads, base, points, kind: Kind::Quintic })
-    }
-
-    fn deviation(&self) -> f64 {
-        let (level, cells, steps_more): (u32, Vec<QuadCell>, u32) = match &self.kind {
-            Kind::Bicubic { patches, .. } => {
-                (self.level, deviation::changed_cells(&self.base, self.level, &patches.classes), 0)
-            }
-            Kind::Quintic => (0, deviation::all_cells(&self.base, 0), 1),
-        };
-        let measured = Measured { base: &self.base, points: &self.points, level, surfaces: &self.surfaces };
-        deviation::largest_deviation(&measured, &cells, steps_more)
-    }
-
-    /// Charts with their surfaces, in quads.
-    fn charts(&self, packing: Packing, seams: &[HalfedgeId]) -> Vec<(Chart, NurbsSurface)> {
-        let Kind::Bicubic { patches, layer } = &self.kind else {
-            let charts = unpacked(&self.base);
-            let surface = |chart: &Chart| self.surfaces[chart.quads[(0, 0)].quad as usize].clone();
-            let surfaces: Vec<NurbsSurface> = charts.iter().map(surface).collect();
-            return charts.into_iter().zip(surfaces).collect();
-        };
-        let charts = match packing {
-            Packing::Packed => pack(&self.base, &patches.classes, seams),
-            Packing::Unpacked => unpacked(&self.base),
-        };
-        let pieces = Pieces::new(&self.base, &self.points, patches, *layer);
-        let surfaces = par::map(charts.len(), |chart| pieces.surface(&charts[chart]));
-        charts.into_iter().zip(surfaces).collect()
-    }
-
-    /// The piece of the cage that a quad of the base is. A quintic base that was refined has a patch per quarter.
-    fn address(&self, source: &Source, quad: u32) -> FaceAddress {
-        let whole = source.addresses[self.source_quads[quad as usize] as usize];
-        let steps = match self.kind {
-            Kind::Quintic => self.level,
-            Kind::Bicubic { .. } => 0,
-        };
-        (0..steps).rev().fold(whole, |piece, step| piece.quarter(quad >> (2 * step) & 3))
-    }
-
-    fn broken(&self) -> &[HalfedgeId] {
-        match &self.kind {
-            Kind::Bicubic { patches, .. } => &patches.broken,
-            Kind::Quintic => &[],
-        }
-    }
-
-    fn notes(&self) -> &[Note] {
-        match &self.kind {
-            Kind::Bicubic { patches, .. } => &patches.notes,
-            Kind::Quintic => &[],
-        }
-    }
-}
-
 /// Share of the cube of the cage's size below which a closed part encloses nothing.
 const NO_VOLUME: f64 = 1e-12;
 
 /// Sews, sorts, measures, and moves the part back to where the cage was.
-fn finish(
-    source: &Source,
-    patches: Converted<'_>,
-    deviation: f64,
-    options: &Options,
-    mesh: &ControlMesh,
-    seams: &[HalfedgeId],
-) -> Part {
+fn finish(source: &Source, conversion: &Conversion<'_>, options: &Options, mesh: &ControlMesh) -> Part {
+    let Conversion { ref construction, level, deviation } = *conversion;
     let mut all_notes = notes(mesh);
-    all_notes.extend(patches.notes().iter().map(|note| source.told(note)));
+    all_notes.extend(construction.notes());
     all_notes.extend(source.refined_for_lenses());
-    let address = |quad: u32| patches.address(source, quad);
-    let mut sewing = Seams::new(&patches.base, patches.broken());
-    let charts = patches.charts(options.packing, seams);
-    let mut faces: Vec<Face> =
-        charts.into_iter().map(|(chart, surface)| sewing.chart(&chart, surface, address)).collect();
+    let charts = construction.charts(options.packing);
+    let mut sewing = Seams::new(construction.adaptive());
+    for PlacedChart { level, chart, .. } in &charts {
+        sewing.divide(*level, chart.quads.cells().iter().map(|placed| FaceId(placed.quad)));
+    }
+    construction.broken().into_iter().for_each(|(level, h)| sewing.break_at(level, h));
+    let patches: usize = charts.iter().map(|placed| placed.chart.quads.cells().len()).sum();
+    let face = |PlacedChart { level, chart, surface }| sewing.chart(level, &chart, surface);
+    let mut faces: Vec<Face> = charts.into_iter().map(face).collect();
     let charts = faces.len();
     for cap in &source.caps {
-        faces.extend(sewing.cap(cap, source.cap_steps()));
+        faces.extend(sewing.cap(cap));
     }
     let spans = |face: &Face| face.surface.u.spans().count() * face.surface.v.spans().count();
     let cap_patches: usize = faces[charts..].iter().map(spans).sum();
@@ -570,9 +349,9 @@ fn finish(
     let mut extent: Option<[Vec3; 2]> = None;
     let mut report = Report {
         method: options.method,
-        level: patches.level,
+        level,
         cage_faces: source.cage_faces,
-        patches: patches.surfaces.len() - patches.base.hidden_faces().len() + cap_patches,
+        patches: patches + cap_patches,
         lenses: source.lenses.clone(),
         lens_steps: source.steps,
         max_deviation: deviation,

@@ -1,16 +1,16 @@
 //! Outlines: what lies along the sides of each face that is to be sewn, in pieces that no other face divides.
 //!
-//! Such a piece is a *course*: an edge of the base mesh, or of a cap. Vertices are those of the base mesh, then those
-//! that caps bring with them.
+//! Such a piece is a *course*: an edge of a level of refinement, or of a cap. Where faces of different levels meet, the longer side
+//! has several (a T). Vertices are those of the levels, then those that caps bring with them.
 
 use std::collections::BTreeMap;
 
 use crate::lens::{Cap, CapVertex};
 use crate::math::{Grid, Vec3};
-use crate::mesh::{HalfedgeId, VertexId};
+use crate::mesh::{FaceId, HalfedgeId};
 use crate::nurbs::{FaceAddress, NurbsSurface, Side};
+use crate::patch::{Adaptive, AdaptiveLevel};
 use crate::pccm::{Chart, Placed};
-use crate::rules::Level;
 
 /// The sides of a face in the order of its loop.
 pub(super) const SIDES: [Side; 4] = [Side::V0, Side::U1, Side::V1, Side::U0];
@@ -34,7 +34,7 @@ pub(super) struct Step {
 /// An edge in one of its two directions.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Course {
-    /// The number of the edge: that in the base mesh, or one beyond.
+    /// The number of the edge.
     pub(super) key: u32,
     /// True if it runs in the edge's own direction.
     pub(super) forward: bool,
@@ -53,10 +53,14 @@ impl Course {
     }
 }
 
-/// All edges that faces may share.
+/// All edges that faces may share: those of every level of refinement that a face is made of, then those of caps.
 pub(super) struct Seams<'a> {
-    base: &'a Level,
-    /// By edge of the base: false if the faces on both sides meet at an angle there.
+    adaptive: &'a Adaptive,
+    /// For each level the number of its first edge.
+    first_edges: Vec<usize>,
+    /// By edge of a level: true if faces of deeper levels divide it.
+    divided: Vec<bool>,
+    /// By edge of a level: false if the faces on both sides meet at an angle there.
     smooth: Vec<bool>,
     /// Edges of caps between two vertices.
     own: BTreeMap<[u32; 2], u32>,
@@ -65,15 +69,38 @@ pub(super) struct Seams<'a> {
 }
 
 impl<'a> Seams<'a> {
-    /// Those of a base mesh; `broken` are halfedges whose edge is not smooth next to their origin.
-    pub(super) fn new(base: &'a Level, broken: &[HalfedgeId]) -> Seams<'a> {
-        let topology = base.topology();
-        let edges = topology.edge_halfedges();
-        let mut smooth: Vec<bool> = edges.map(|h| topology.twin(h).is_some() && !base.is_sharp(h)).collect();
-        for &h in broken {
-            smooth[topology.edge(h).index()] = false;
+    pub(super) fn new(adaptive: &'a Adaptive) -> Seams<'a> {
+        let mut first_edges = Vec::new();
+        let mut smooth = Vec::new();
+        for AdaptiveLevel { level, .. } in adaptive.levels() {
+            let topology = level.topology();
+            first_edges.push(smooth.len());
+            smooth
+                .extend(topology.edge_halfedges().map(|h| topology.twin(h).is_some() && !level.is_sharp(h)));
         }
-        Seams { base, smooth, own: BTreeMap::new(), points: Vec::new() }
+        let divided = vec![false; smooth.len()];
+        Seams { adaptive, first_edges, divided, smooth, own: BTreeMap::new(), points: Vec::new() }
+    }
+
+    /// Faces of a level are going to be sewn: the edges of levels above that they lie along are divided. To be told of all faces
+    /// before the first outline is asked for.
+    pub(super) fn divide(&mut self, number: usize, faces: impl IntoIterator<Item = FaceId>) {
+        let topology = self.adaptive.levels()[number].level.topology();
+        for h in faces.into_iter().flat_map(|face| topology.halfedges(face)) {
+            let (mut number, mut edge) = (number, topology.edge(h));
+            while let Some(parent) = self.adaptive.parent_edge(number, edge) {
+                (number, edge) = (number - 1, parent);
+                if std::mem::replace(&mut self.divided[self.first_edges[number] + edge.index()], true) {
+                    break;
+                }
+            }
+        }
+    }
+
+    /// The surfaces on both sides of a halfedge's edge do not share their tangent planes near its origin.
+    pub(super) fn break_at(&mut self, number: usize, h: HalfedgeId) {
+        let course = self.along(number, h);
+        self.smooth[course.key as usize] = false;
     }
 
     /// How many edges there are.
@@ -88,19 +115,33 @@ impl<'a> Seams<'a> {
 
     /// Positions of vertices as far as they are settled.
     pub(super) fn positions(&self) -> Vec<Option<Vec3>> {
-        let mut positions = vec![None; self.base.topology().vertex_count()];
+        let mut positions = vec![None; self.adaptive.vertex_count()];
         positions.extend(self.points.iter().copied().map(Some));
         positions
     }
 
-    fn along(&self, h: HalfedgeId) -> Course {
-        let topology = self.base.topology();
+    fn along(&self, number: usize, h: HalfedgeId) -> Course {
+        let AdaptiveLevel { level, vertices, .. } = &self.adaptive.levels()[number];
+        let topology = level.topology();
         Course {
-            key: topology.edge(h).0,
+            key: (self.first_edges[number] + topology.edge(h).index()) as u32,
             forward: topology.twin(h).is_none_or(|twin| h < twin),
-            from: topology.origin(h).0,
-            to: topology.target(h).0,
+            from: vertices[topology.origin(h).index()],
+            to: vertices[topology.target(h).index()],
         }
+    }
+
+    /// What lies along a halfedge of a level, with the share of it that each piece begins and ends at.
+    fn courses(&self, number: usize, h: HalfedgeId, range: [f64; 2], out: &mut Vec<Step>) {
+        let course = self.along(number, h);
+        let halves = if self.divided[course.key as usize] { self.adaptive.halves(number, h) } else { None };
+        let Some([first, second]) = halves else {
+            out.push(Step { course, range });
+            return;
+        };
+        let middle = (range[0] + range[1]) / 2.0;
+        self.courses(number + 1, first, [range[0], middle], out);
+        self.courses(number + 1, second, [middle, range[1]], out);
     }
 
     fn between(&mut self, from: u32, to: u32) -> Course {
@@ -109,33 +150,32 @@ impl<'a> Seams<'a> {
         Course { key, forward: from < to, from, to }
     }
 
-    /// A chart with its surface, one unit of knot per quad; `address` names a quad of the base.
-    pub(super) fn chart(
-        &self,
-        chart: &Chart,
-        surface: NurbsSurface,
-        address: impl Fn(u32) -> FaceAddress,
-    ) -> Face {
-        let side = |number: usize| {
-            let quads = side_quads(&chart.quads, number);
+    /// A chart of a level with its surface, one unit of knot per quad.
+    pub(super) fn chart(&self, number: usize, chart: &Chart, surface: NurbsSurface) -> Face {
+        let topology = self.adaptive.levels()[number].level.topology();
+        let side = |side: usize| {
+            let quads = side_quads(&chart.quads, side);
             let length = quads.len() as f64;
-            let steps = (0..).zip(quads).map(|(step, placed)| {
+            let mut steps = Vec::with_capacity(quads.len());
+            for (step, placed) in (0..).zip(quads) {
                 let (start, end) = (f64::from(step), f64::from(step + 1));
-                let range = match SIDES[number] {
+                let range = match SIDES[side] {
                     Side::V0 | Side::U1 => [start, end],
                     Side::V1 | Side::U0 => [length - start, length - end],
                 };
-                Step { course: self.along(placed.halfedge(number as u32)), range }
-            });
-            steps.collect()
+                let h = HalfedgeId(topology.first(FaceId(placed.quad)).0 + (placed.turn + side as u32) % 4);
+                self.courses(number, h, range, &mut steps);
+            }
+            steps
         };
-        let pieces = chart.quads.map(|placed| address(placed.quad));
+        let addresses = &self.adaptive.levels()[number].addresses;
+        let pieces = chart.quads.map(|placed| addresses[placed.quad as usize]);
         Face { surface, sides: std::array::from_fn(side), pieces }
     }
 
-    /// The faces of a cap, whose cage is the base mesh `steps` refinements ago.
-    pub(super) fn cap(&mut self, cap: &Cap, steps: u32) -> Vec<Face> {
-        let first_point = (self.base.topology().vertex_count() + self.points.len()) as u32;
+    /// The faces of a cap of the cage.
+    pub(super) fn cap(&mut self, cap: &Cap) -> Vec<Face> {
+        let first_point = (self.adaptive.vertex_count() + self.points.len()) as u32;
         self.points.extend_from_slice(&cap.points);
         let mut faces = Vec::with_capacity(cap.faces.len());
         for face in &cap.faces {
@@ -151,29 +191,15 @@ impl<'a> Seams<'a> {
                     side.push(Step { course, range: edge.range });
                     continue;
                 };
-                let path = path(self.base, from, to, steps);
-                let count = path.len() as f64;
-                let [start, end] = edge.range;
-                for (k, h) in path.into_iter().enumerate() {
-                    let at = |k: usize| start + (end - start) * (k as f64 / count);
-                    side.push(Step { course: self.along(h), range: [at(k), at(k + 1)] });
+                let topology = self.adaptive.levels()[0].level.topology();
+                if let Some(h) = topology.ring(from).find(|&h| topology.target(h) == to) {
+                    self.courses(0, h, edge.range, side);
                 }
             }
             faces.push(Face { surface: face.surface.clone(), sides, pieces: face.pieces.clone() });
         }
         faces
     }
-}
-
-/// The halfedges from one vertex of the cage to another, its neighbour `steps` refinements ago: straight on.
-fn path(base: &Level, from: VertexId, to: VertexId, steps: u32) -> Vec<HalfedgeId> {
-    let topology = base.topology();
-    let straight_on = |h: HalfedgeId| topology.twin(topology.next(h)).map(|across| topology.next(across));
-    let walk = |first: HalfedgeId| {
-        std::iter::successors(Some(first), |&h| straight_on(h)).take(1 << steps).collect::<Vec<_>>()
-    };
-    let mut paths = topology.ring(from).map(walk);
-    paths.find(|path| path.last().is_some_and(|&h| topology.target(h) == to)).unwrap_or_default()
 }
 
 /// The quads along a side of a chart, in the direction of the loop.

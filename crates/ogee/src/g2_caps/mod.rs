@@ -4,10 +4,15 @@
 //! A construction of our own; the method's page is `docs/methods/g2_caps.md`. A cap has one surface a sector; its coefficients are
 //! linear in the vertices of the two-ring, by weights that depend on the class of the vertex alone.
 
+mod apply;
 mod class;
+mod columns;
+mod tables;
 mod weights;
 
+pub use apply::{knots, nets};
 pub use class::{CapClass, CornerAngle};
+pub use tables::{encode, is_solvable, shipped_classes, table_name, weights};
 pub use weights::Weights;
 
 /// Degree of a sector in both directions.

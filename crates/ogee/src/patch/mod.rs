@@ -1,5 +1,6 @@
 //! Pieces of a level: taken out to be worked on alone, and what every face's surface is made of.
 
+mod adaptive;
 mod build;
 mod chain;
 pub(crate) mod dart;
@@ -18,6 +19,7 @@ mod table;
 mod tree;
 mod users;
 
+pub(crate) use adaptive::{Adaptive, AdaptiveLevel};
 pub(crate) use chain::{ChainBasis, Wide};
 pub(crate) use kind::Kind;
 pub use location::{Location, LocationError, ParametricFace};
