@@ -9,6 +9,8 @@ use ogee::lens;
 use ogee::{Boundary, Creasing, Derivatives};
 use ogee_formats::step::{Schema, Unit};
 
+use crate::comparison::Way;
+
 /// A parser of values that go by one or more names.
 #[derive(Clone)]
 pub(crate) struct Names<T: Clone + Send + Sync + 'static> {
@@ -49,6 +51,16 @@ impl<T: Clone + Send + Sync + 'static> TypedValueParser for Names<T> {
 
 pub(crate) const METHODS: Names<Method> = Names {
     values: &[("pccm", Method::Pccm), ("pccm-first", Method::PccmFirst), ("bi5", Method::Bi5)],
+    elsewhere: &["g2"],
+};
+
+pub(crate) const WAYS: Names<Way> = Names {
+    values: &[
+        ("limit", Way::Limit),
+        ("pccm", Way::Part(Method::Pccm)),
+        ("pccm-first", Way::Part(Method::PccmFirst)),
+        ("bi5", Way::Part(Method::Bi5)),
+    ],
     elsewhere: &["g2"],
 };
 
