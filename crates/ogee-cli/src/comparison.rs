@@ -3,9 +3,7 @@
 use ogee::ControlMesh;
 use ogee::convert::{Method, Options, Packing, to_part};
 use ogee::lens;
-use ogee::quality::{
-    ExtraordinaryPoint, Field, PatchView, PlaneLight, Ray, Report, ReportOptions, Surface, Viewer,
-};
+use ogee::quality::{ExtraordinaryPoint, Field, PatchView, Ray, Report, ReportOptions, Surface, Viewer};
 use ogee_render::{ANGLE, Camera, THREE_QUARTER, default_light, outline};
 use serde::Serialize;
 
@@ -73,9 +71,6 @@ pub(crate) struct Comparison {
     /// The diagonal of the first surface.
     #[serde(skip)]
     pub(crate) size: f64,
-    /// Whose lines kink, and are drawn.
-    #[serde(skip)]
-    pub(crate) light: PlaneLight,
 }
 
 /// One of the surfaces.
@@ -133,7 +128,6 @@ pub(crate) fn compare(
         surfaces: compared.collect(),
         points: points(mesh, &measured),
         size: measured[0].size(),
-        light,
     })
 }
 

@@ -19,7 +19,7 @@ pub(crate) fn compared_page(
     surfaces: &[&dyn Surface],
     notes: &[Finding],
 ) -> (String, Option<Finding>) {
-    let (pictures, fault) = match rows(surfaces, comparison.size, comparison.light) {
+    let (pictures, fault) = match rows(surfaces, comparison.size) {
         Ok(rows) => (views(comparison, &rows), None),
         Err(fault) => {
             let message = format!("the page has no pictures: {fault}");

@@ -145,14 +145,15 @@ pub(super) struct Row {
 }
 
 /// Surfaces of one cage side by side, as the camera sees the first and with the colours of the first.
-pub(super) fn rows(surfaces: &[&dyn Surface], size: f64, light: PlaneLight) -> Result<Vec<Row>, RenderError> {
+pub(super) fn rows(surfaces: &[&dyn Surface], size: f64) -> Result<Vec<Row>, RenderError> {
     let camera = Camera::fit_from(THREE_QUARTER, &outline(surfaces[0]), ANGLE, SIZE);
-    let pattern = Pattern::Lines { period: size / FINE_LINES, width: 0.5, phase: 0.0 };
+    let light = lamps_behind(&camera, size);
+    let pattern = Pattern::Lines { period: size / LAMPS, width: 0.5, phase: 0.0 };
     let wanted = [
         (
             Style::Highlight { light, pattern },
             "Highlight lines",
-            "Stripes where normals meet parallel lamps above. They kink where curvature jumps.",
+            "Stripes where normals meet parallel lamps on the side of the eye. They kink where curvature jumps.",
         ),
         (
             Style::Curvature { quantity: Quantity::Mean, limit: None },
@@ -176,8 +177,16 @@ pub(super) fn rows(surfaces: &[&dyn Surface], size: f64, light: PlaneLight) -> R
         .collect()
 }
 
-/// Stripes over the diagonal, where they are only looked at.
-const FINE_LINES: f64 = 24.0;
+/// Lamps over the diagonal, where they are on the side of the eye.
+const LAMPS: f64 = 5.0;
+
+/// Upright lamps on a plane that faces what is seen, by the size of it away: they meet the normal of every point in sight.
+fn lamps_behind(camera: &Camera, size: f64) -> PlaneLight {
+    let towards = (camera.eye - camera.at).normalized().unwrap_or(ACROSS);
+    let right = camera.up.cross(towards).normalized().unwrap_or(ACROSS);
+    let axes = [right, towards.cross(right)];
+    PlaneLight { centre: camera.at + size * towards, axes, half: [f64::INFINITY; 2] }
+}
 
 /// A picture as an address that holds all of it.
 fn address(picture: &ogee_render::Picture) -> String {
