@@ -36,6 +36,7 @@ mod gpu;
 mod inspection;
 mod lenses;
 mod names;
+mod nodes;
 mod output;
 mod part;
 mod progress;

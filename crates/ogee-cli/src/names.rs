@@ -50,8 +50,13 @@ impl<T: Clone + Send + Sync + 'static> TypedValueParser for Names<T> {
 }
 
 pub(crate) const METHODS: Names<Method> = Names {
-    values: &[("pccm", Method::Pccm), ("pccm-first", Method::PccmFirst), ("bi5", Method::Bi5)],
-    elsewhere: &["g2"],
+    values: &[
+        ("pccm", Method::Pccm),
+        ("pccm-first", Method::PccmFirst),
+        ("bi5", Method::Bi5),
+        ("g2", Method::G2),
+    ],
+    elsewhere: &[],
 };
 
 pub(crate) const WAYS: Names<Way> = Names {

@@ -17,6 +17,7 @@ use crate::cage::Cage;
 use crate::error::{Exit, Failure, Finding};
 use crate::lenses::{LensReport, lens_counts};
 use crate::names::{LENS_METHODS, METHODS, SCHEMAS, UNITS, UP_AXES};
+use crate::nodes::NodeReport;
 use crate::output::{Counter, Destination};
 use crate::report::{Table, count, figure};
 use crate::system;
@@ -99,6 +100,11 @@ pub(crate) struct PartReport {
     max_curvature_jump: f64,
     smooth_edges: usize,
     sharp_edges: usize,
+    /// By level of refinement how many patches are faces of it.
+    levels: Vec<usize>,
+    caps: usize,
+    cap_degree: Option<usize>,
+    nodes: Vec<NodeReport>,
     lenses: Vec<LensReport>,
 }
 
@@ -196,6 +202,8 @@ impl PartArguments {
     /// The figures of a part.
     pub(crate) fn report(&self, part: &Part) -> PartReport {
         let figures = &part.report;
+        let nodes: Vec<NodeReport> = figures.nodes.iter().map(NodeReport::new).collect();
+        let caps = nodes.iter().filter(|node| node.is_cap()).count();
         PartReport {
             method: figures.method.name(),
             level: figures.level,
@@ -218,6 +226,10 @@ impl PartArguments {
             max_curvature_jump: figures.max_curvature_jump,
             smooth_edges: figures.smooth_edges,
             sharp_edges: figures.sharp_edges,
+            levels: figures.levels.clone(),
+            caps,
+            cap_degree: (caps > 0).then_some(ogee::g2_caps::DEGREE),
+            nodes,
             lenses: figures.lenses.iter().map(LensReport::new).collect(),
         }
     }
@@ -246,6 +258,17 @@ impl PartReport {
         table.row("method", format!("{} at level {}", report.method, report.level));
         let written = count(report.faces_written, "face", "faces");
         table.row("patches", format!("{}, written as {written}", report.patches));
+        if report.levels.len() > 1 {
+            let faces = (0..).zip(&report.levels).filter(|(_, faces)| **faces > 0);
+            let words: Vec<String> =
+                faces.map(|(level, faces)| format!("{faces} of level {level}")).collect();
+            table.row("levels", words.join(", "));
+        }
+        if let Some(degree) = report.cap_degree {
+            let left = report.nodes.len() - report.caps;
+            let without = if left > 0 { format!(", {left} without") } else { String::new() };
+            table.row("caps", format!("{} of degree {degree}{without}", report.caps));
+        }
         let shells = count(report.shells, "shell", "shells");
         let closed = if report.closed { "closed" } else { "open" };
         table.row("part", format!("{} of {shells}, {closed}", count(report.solids, "solid", "solids")));
@@ -261,6 +284,10 @@ impl PartReport {
         let size = <[f64; 3]>::from(high - low).map(figure).join(" x ");
         table.row("size", format!("{size} {unit}"));
         table.row("largest angle", format!("{} deg over smooth edges", figure(report.max_normal_angle_deg)));
+        if report.cap_degree.is_some() {
+            let jump = figure(report.max_curvature_jump);
+            table.row("curvature jump", format!("{jump} at most, times the size"));
+        }
         table.row("largest gap", format!("{} {unit}", figure(report.max_gap)));
         let relative = figure(report.max_deviation_relative);
         table.row("deviation", format!("{} {unit}, {relative} of the size", figure(report.max_deviation)));

@@ -126,7 +126,7 @@ fn corner_frame(k: usize, a: f64, b: f64, m: f64) -> (f64, f64) {
 }
 
 /// The point of a patch nearest to a point, from a start.
-fn closest(surface: &NurbsSurface, m: f64, start: (f64, f64), point: Vec3) -> ((f64, f64), f64) {
+pub(super) fn closest(surface: &NurbsSurface, m: f64, start: (f64, f64), point: Vec3) -> ((f64, f64), f64) {
     // The last digits of a distance do not matter here.
     const WORTH: f64 = 1e-6;
     let foot = Foot::from_start([start.0, start.1], &[[0.0, m]; 2], WORTH, |[u, v]| {

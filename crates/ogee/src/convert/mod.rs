@@ -4,6 +4,8 @@
 
 mod bicubic;
 mod bodies;
+mod cap_deviation;
+mod curvature;
 mod curves;
 mod deviation;
 mod measure;
@@ -14,16 +16,18 @@ mod sew;
 mod source;
 
 pub use curves::largest_distance_to_edges;
-pub use part::{Body, Method, Part, Report};
+pub use part::{Body, Method, Node, NodeKind, Part, Report};
 
+use crate::g2_caps;
 use crate::lens::{self, LensError};
 use crate::math::Vec3;
 use crate::mesh::{ControlMesh, FaceId, HalfedgeId, Meeting, Note, TopologyError, VertexId, notes};
 use crate::nurbs::NurbsSurface;
 use crate::patch::Adaptive;
-use crate::pccm::{self, Chart, Layer, PccmError, least_level};
+use crate::pccm::{Chart, Layer, PccmError, least_level};
 use crate::refine::TooDeep;
 use bicubic::Bicubic;
+use curvature::Curvature;
 use measure::Continuity;
 use outline::{Face, Seams};
 use quintic::Quintic;
@@ -99,6 +103,9 @@ pub enum ConvertError {
     /// Something is in the way of a vertex of valence 2.
     #[error(transparent)]
     Lens(LensError),
+    /// What refinement should have cured, and did not.
+    #[error(transparent)]
+    Obstacle(#[from] g2_caps::Obstacle),
     /// The quintic method is for cages without a boundary, and a cap leaves one.
     #[error(
         "bi5 has no patches beside caps, as around vertex {vertex}; use the method pccm, or merge its lens"
@@ -159,6 +166,7 @@ impl ConvertError {
             ConvertError::Topology(error) => error.defects[0].code(),
             ConvertError::Pccm(error) => error.code(),
             ConvertError::Lens(error) => error.code(),
+            ConvertError::Obstacle(error) => error.code(),
             ConvertError::Cap { .. } => "cap",
             ConvertError::Meeting { .. } => "meeting",
             ConvertError::Seam { .. } => "seam",
@@ -193,27 +201,39 @@ pub fn to_part(mesh: &ControlMesh, options: &Options) -> Result<Part, ConvertErr
     if let Some(level) = options.level.filter(|&level| level > DEEPEST_LEVEL) {
         return Err(ConvertError::LevelTooHigh { level });
     }
-    let conversion = by_level(&source, options)?;
+    let bicubic = |layer: Layer| {
+        let (quads, _) = source.quads();
+        let least = least_level(quads, layer).map_err(|error| told(error, &source.origins))?.level;
+        by_level(&source, options, least, |level| {
+            Bicubic::new(&source, layer, level).map(Construction::Bicubic)
+        })
+    };
+    let conversion = match options.method {
+        Method::Pccm => bicubic(Layer::Second)?,
+        Method::PccmFirst => bicubic(Layer::First)?,
+        Method::Bi5 => {
+            by_level(&source, options, 0, |level| Quintic::new(&source, level).map(Construction::Quintic))?
+        }
+        Method::G2 => {
+            // What has no patch has no cap either.
+            least_level(source.quads().0, Layer::Second).map_err(|error| told(error, &source.origins))?;
+            Conversion::with_caps(Curvature::new(&source, options)?)
+        }
+    };
     Ok(finish(&source, &conversion, options, mesh))
 }
 
 /// Converts with one level for all faces, the least that will do.
-fn by_level<'a>(source: &'a Source, options: &Options) -> Result<Conversion<'a>, ConvertError> {
-    let (quads, _) = source.quads();
-    let least = match options.method {
-        Method::Pccm => least_level(quads, Layer::Second),
-        Method::PccmFirst => least_level(quads, Layer::First),
-        Method::Bi5 => Ok(pccm::Requirement { level: 0, because: "" }),
-    };
-    let least = least.map_err(|error| told(error, &source.origins))?.level;
+fn by_level<'a>(
+    source: &Source,
+    options: &Options,
+    least: u32,
+    converted: impl Fn(u32) -> Result<Construction<'a>, ConvertError>,
+) -> Result<Conversion<'a>, ConvertError> {
     let mut level = options.level.unwrap_or(least);
     loop {
         check_memory(source, options, level)?;
-        let construction = match options.method {
-            Method::Pccm => Construction::Bicubic(Bicubic::new(source, Layer::Second, level)?),
-            Method::PccmFirst => Construction::Bicubic(Bicubic::new(source, Layer::First, level)?),
-            Method::Bi5 => Construction::Quintic(Quintic::new(source, level)?),
-        };
+        let construction = converted(level)?;
         let deviation = construction.deviation();
         match options.max_deviation {
             Some(wanted) if deviation >= wanted && level < DEEPEST_LEVEL && options.level.is_none() => {
@@ -237,6 +257,17 @@ struct Conversion<'a> {
 enum Construction<'a> {
     Bicubic(Bicubic<'a>),
     Quintic(Quintic),
+    Curvature(Curvature<'a>),
+}
+
+impl<'a> Conversion<'a> {
+    fn with_caps(curvature: Curvature<'a>) -> Conversion<'a> {
+        Conversion {
+            level: (curvature.adaptive().levels().len() - 1) as u32,
+            deviation: curvature.deviation(),
+            construction: Construction::Curvature(curvature),
+        }
+    }
 }
 
 /// A chart of a level of refinement, with its surface, one unit of knot per quad.
@@ -251,6 +282,7 @@ impl Construction<'_> {
         match self {
             Construction::Bicubic(bicubic) => bicubic.deviation(),
             Construction::Quintic(quintic) => quintic.deviation(),
+            Construction::Curvature(curvature) => curvature.deviation(),
         }
     }
 
@@ -258,6 +290,7 @@ impl Construction<'_> {
         match self {
             Construction::Bicubic(bicubic) => bicubic.adaptive(),
             Construction::Quintic(quintic) => quintic.adaptive(),
+            Construction::Curvature(curvature) => curvature.adaptive(),
         }
     }
 
@@ -265,6 +298,14 @@ impl Construction<'_> {
         match self {
             Construction::Bicubic(bicubic) => bicubic.charts(packing),
             Construction::Quintic(quintic) => quintic.charts(),
+            Construction::Curvature(curvature) => curvature.charts(packing),
+        }
+    }
+
+    fn nodes(&self) -> &[Node] {
+        match self {
+            Construction::Curvature(curvature) => curvature.nodes(),
+            Construction::Bicubic(_) | Construction::Quintic(_) => &[],
         }
     }
 
@@ -272,6 +313,7 @@ impl Construction<'_> {
     fn broken(&self) -> Vec<(usize, HalfedgeId)> {
         match self {
             Construction::Bicubic(bicubic) => bicubic.broken(),
+            Construction::Curvature(curvature) => curvature.broken(),
             Construction::Quintic(_) => Vec::new(),
         }
     }
@@ -280,6 +322,7 @@ impl Construction<'_> {
     fn notes(&self) -> Vec<Note> {
         match self {
             Construction::Bicubic(bicubic) => bicubic.notes(),
+            Construction::Curvature(curvature) => curvature.notes(),
             Construction::Quintic(_) => Vec::new(),
         }
     }
@@ -297,6 +340,8 @@ fn check_memory(source: &Source, options: &Options, level: u32) -> Result<(), To
             quads * side * side * BYTES_PER_COEFFICIENT
         }
         Method::Bi5 => (quads << (2 * level)) * BYTES_PER_QUINTIC,
+        // Asked once the levels of all faces are known.
+        Method::G2 => 0,
     };
     let memory = u128::from(options.memory.unwrap_or(u64::MAX));
     if bytes(level) <= memory {
@@ -328,7 +373,11 @@ fn finish(source: &Source, conversion: &Conversion<'_>, options: &Options, mesh:
         sewing.divide(*level, chart.quads.cells().iter().map(|placed| FaceId(placed.quad)));
     }
     construction.broken().into_iter().for_each(|(level, h)| sewing.break_at(level, h));
-    let patches: usize = charts.iter().map(|placed| placed.chart.quads.cells().len()).sum();
+    let mut levels = vec![0; construction.adaptive().levels().len()];
+    for PlacedChart { level, chart, .. } in &charts {
+        levels[*level] += chart.quads.cells().len();
+    }
+    let patches: usize = levels.iter().sum();
     let face = |PlacedChart { level, chart, surface }| sewing.chart(level, &chart, surface);
     let mut faces: Vec<Face> = charts.into_iter().map(face).collect();
     let charts = faces.len();
@@ -352,6 +401,8 @@ fn finish(source: &Source, conversion: &Conversion<'_>, options: &Options, mesh:
         level,
         cage_faces: source.cage_faces,
         patches: patches + cap_patches,
+        levels,
+        nodes: construction.nodes().to_vec(),
         lenses: source.lenses.clone(),
         lens_steps: source.steps,
         max_deviation: deviation,

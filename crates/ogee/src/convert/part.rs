@@ -1,8 +1,9 @@
 //! `Part`: what is exported, with the figures that prove it.
 
+use crate::g2_caps::CapClass;
 use crate::lens::TreatedLens;
 use crate::math::Vec3;
-use crate::mesh::Note;
+use crate::mesh::{Note, Place};
 use crate::nurbs::Shell;
 
 /// Solids and sheets, and the report of their making.
@@ -58,6 +59,8 @@ pub enum Method {
     PccmFirst,
     /// One bi-quintic Bezier patch per quad; closed cages without creases.
     Bi5,
+    /// G2 caps around irregular vertices: curvature-continuous everywhere.
+    G2,
 }
 
 impl Method {
@@ -67,8 +70,31 @@ impl Method {
             Method::Pccm => "pccm",
             Method::PccmFirst => "pccm-first",
             Method::Bi5 => "bi5",
+            Method::G2 => "g2",
         }
     }
+}
+
+/// An irregular vertex of a part that is curvature-continuous.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Node {
+    /// The vertex of the cage, or the polygon whose middle it is.
+    pub place: Place,
+    /// What is around it.
+    pub kind: NodeKind,
+    /// Refinements before that.
+    pub level: u32,
+    /// Largest distance of sampled points of the limit surface there.
+    pub deviation: f64,
+}
+
+/// What is around an irregular vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NodeKind {
+    /// A G2 cap of degree 7.
+    Cap(CapClass),
+    /// Patches of PCCM: tangent-continuous. A note says why.
+    Smoothed,
 }
 
 /// The figures of a conversion. Lengths are in the unit of the cage.
@@ -115,6 +141,10 @@ pub struct Report {
     pub smooth_edges: usize,
     /// Shared edges that are not.
     pub sharp_edges: usize,
+    /// By level of refinement how many of the patches are faces of it: 0 is the cage.
+    pub levels: Vec<usize>,
+    /// Of the method G2: every irregular vertex, by level.
+    pub nodes: Vec<Node>,
     /// What was done at vertices of valence 2 and at poles, by vertex.
     pub lenses: Vec<TreatedLens>,
     /// How often the cage was refined to make room around them.

@@ -1,6 +1,7 @@
 //! A cage made ready: turned, near the origin, its lenses seen to, and of quads.
 
 use super::{ConvertError, Method, Options, Packing};
+use crate::g2_caps::Uncapped;
 use crate::lens::{self, Cap, PolarFaces, TreatedLens};
 use crate::math::Vec3;
 use crate::mesh::{ControlMesh, FaceId, HalfedgeId, Note, Place, Topology, VertexId};
@@ -133,6 +134,31 @@ impl Source {
             "the cage was refined {times}, to make room around vertices of valence 2 such as {vertex}"
         );
         Some(Note { code: "lens_refined", message, place: Some(Place::Vertex(vertex.0)) })
+    }
+
+    /// The cage alone, without the refinement that makes quads of all faces.
+    pub(super) fn adaptive_cage(&self) -> Adaptive {
+        self.adaptive.first_level()
+    }
+
+    /// A place of the cage that was made ready, in terms of the cage that was given.
+    pub(super) fn place(&self, place: Place) -> Place {
+        let nearest = |v: u32| self.origins.nearest(VertexId(v)).0;
+        match place {
+            Place::Vertex(v) => Place::Vertex(nearest(v)),
+            Place::Edge(a, b) => Place::Edge(nearest(a), nearest(b)),
+            Place::Face(face) => Place::Face(face),
+        }
+    }
+
+    /// Why a sector has no cap, and what was done.
+    pub(super) fn no_cap(&self, adaptive: &Adaptive, sector: &Uncapped) -> Note {
+        let level = &adaptive.levels()[sector.level];
+        let vertex = level.level.topology().origin(sector.halfedges[0]);
+        let place = self.place(adaptive.origin(level.vertices[vertex.index()]));
+        let why = sector.obstacle.to_string().replace(&format!("vertex {vertex} "), &format!("{place} "));
+        let message = format!("{why}; its faces are smoothed by PCCM, so that curvature jumps there");
+        Note { code: "no_cap", message, place: Some(place) }
     }
 
     /// A note about a vertex of the quads, in terms of the cage that was given.

@@ -149,15 +149,24 @@ fn write_boundary(class: CapClass, points: &[Vec3], nets: &mut [Grid<Vec3>]) {
 /// Makes rows that two sectors share equal bit for bit: computed twice they agree to rounding only.
 fn share(class: CapClass, nets: &mut [Grid<Vec3>]) {
     let sectors = nets.len();
-    let vertex = nets[0][(0, 0)];
-    for net in nets.iter_mut() {
+    for sector in first_shared_edge(class)..sectors {
+        let before = (sector + sectors - 1) % sectors;
+        for j in 1..COEFFICIENTS {
+            let mean = (nets[sector][(j, 0)] + nets[before][(0, j)]) / 2.0;
+            nets[sector][(j, 0)] = mean;
+            nets[before][(0, j)] = mean;
+        }
+    }
+    let vertex = nets.iter().fold(Vec3::ZERO, |sum, net| sum + net[(0, 0)]) / sectors as f64;
+    for net in nets {
         net[(0, 0)] = vertex;
     }
-    let open = matches!(class, CapClass::Boundary { .. } | CapClass::Corner { .. });
-    for sector in usize::from(open)..sectors {
-        for j in 1..COEFFICIENTS {
-            let value = nets[sector][(j, 0)];
-            nets[(sector + sectors - 1) % sectors][(0, j)] = value;
-        }
+}
+
+/// All edges from this one on have a sector on both sides.
+fn first_shared_edge(class: CapClass) -> usize {
+    match class {
+        CapClass::Interior { .. } | CapClass::Dart { .. } => 0,
+        CapClass::Boundary { .. } | CapClass::Corner { .. } => 1,
     }
 }

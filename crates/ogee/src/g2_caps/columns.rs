@@ -24,7 +24,7 @@ pub(super) enum Node {
 
 impl CapClass {
     /// True if the sectors go all the way round.
-    pub(super) fn is_closed(self) -> bool {
+    pub(crate) fn is_closed(self) -> bool {
         matches!(self, CapClass::Interior { .. })
     }
 

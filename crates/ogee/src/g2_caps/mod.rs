@@ -7,13 +7,18 @@
 mod apply;
 mod class;
 mod columns;
+mod site;
 mod tables;
+mod tiling;
 mod weights;
 
 pub use apply::{knots, nets};
 pub use class::{CapClass, CornerAngle};
+pub use site::{Obstacle, Site, cap_points, site};
 pub use tables::{encode, is_solvable, shipped_classes, table_name, weights};
 pub use weights::Weights;
+
+pub(crate) use tiling::{PlacedCap, Tiling, Uncapped};
 
 /// Degree of a sector in both directions.
 pub const DEGREE: usize = 7;

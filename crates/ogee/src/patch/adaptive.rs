@@ -67,6 +67,12 @@ impl Adaptive {
         Adaptive { origins: first.vertices.iter().map(|&v| Place::Vertex(v)).collect(), levels: vec![first] }
     }
 
+    /// The cage alone.
+    pub(crate) fn first_level(&self) -> Adaptive {
+        let first = AdaptiveLevel { passed_on: Vec::new(), ..self.levels[0].clone() };
+        Adaptive { origins: self.origins[..first.vertices.len()].to_vec(), levels: vec![first] }
+    }
+
     /// The levels so far.
     pub(crate) fn levels(&self) -> &[AdaptiveLevel] {
         &self.levels

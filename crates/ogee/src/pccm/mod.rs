@@ -28,7 +28,7 @@ pub use requirements::{PccmError, Requirement, SHARPEST, least_level};
 
 pub(crate) use chart_surface::Pieces;
 pub(crate) use meeting::{CAP_CELLS, meetings};
-pub(crate) use net::{Cells, view};
+pub(crate) use net::{Cells, inserted, view};
 pub(crate) use packing::{Chart, Placed, pack, unpacked};
 
 use crate::math::{Grid, Vec3, par};

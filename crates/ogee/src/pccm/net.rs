@@ -172,6 +172,16 @@ impl<'a> Cells<'a> {
     }
 }
 
+/// The coefficients over two knot vectors, in cells, of a surface with uniform nodes: one layer of nodes lies outside.
+pub(crate) fn inserted(u: &KnotVector, v: &KnotVector, net: &Grid<Vec3>) -> Grid<Vec3> {
+    let (rows, columns) = (insertion(u), insertion(v));
+    let along = |row: &InsertionRow, at: &dyn Fn(usize) -> Vec3| {
+        row.iter().fold(Vec3::ZERO, |sum, &(node, weight)| sum + weight * at(node))
+    };
+    let half = Grid::from_fn(rows.len(), net.cols(), |i, j| along(&rows[i], &|node| net[(node, j)]));
+    Grid::from_fn(rows.len(), columns.len(), |i, j| along(&columns[j], &|node| half[(i, node)]))
+}
+
 /// Knot insertion: `K P K^T`, before any smoothing.
 pub(crate) struct Insertion {
     rows: Vec<InsertionRow>,

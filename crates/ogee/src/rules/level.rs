@@ -93,6 +93,12 @@ impl Level {
         level
     }
 
+    /// The level with other faces hidden, in order.
+    pub(crate) fn with_hidden(mut self, hidden: Vec<FaceId>) -> Level {
+        self.hidden = hidden;
+        self
+    }
+
     /// The level with rules where curves meet.
     pub(crate) fn with_slices(mut self, slices: Sparse<Slice>) -> Level {
         let centre = |slice: Slice| self.topology.origin(slice.halfedge).0;
