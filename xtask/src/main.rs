@@ -1,6 +1,6 @@
 //! Chores of the workspace. `models [DIR]` writes the shipped cages, `bench` times whole commands, `bench limit`
 //! evaluation beside other programs, `bench threads` what a second thread gains; `bench-worker` is a part of that. `reproduce interrogation`,
-//! `reproduce curve-networks` and `reproduce lens` make papers' figures and tables again, `bless` the pictures that tests compare with.
+//! `reproduce curve-networks`, `reproduce lens` and `reproduce g2` make figures and tables again, `bless` the pictures that tests compare with.
 
 mod bench;
 mod models;
@@ -52,6 +52,12 @@ fn main() -> Result<()> {
             }
             Ok(())
         }
+        ["reproduce", "g2"] => {
+            for line in reproduce::g2::write(&root())? {
+                println!("{line}");
+            }
+            Ok(())
+        }
         ["bless"] => {
             let mut command = std::process::Command::new(env!("CARGO"));
             command.args(["test", "--package", "ogee-render", "--test", "pictures_stay_as_they_were_judged"]);
@@ -66,7 +72,7 @@ fn main() -> Result<()> {
         }
         _ => {
             bail!(
-                "usage: cargo xtask models [DIR] | bench [limit [TASK] | threads] | reproduce interrogation|curve-networks|lens | bless"
+                "usage: cargo xtask models [DIR] | bench [limit [TASK] | threads] | reproduce interrogation|curve-networks|lens|g2 | bless"
             )
         }
     }

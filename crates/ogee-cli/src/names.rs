@@ -65,8 +65,9 @@ pub(crate) const WAYS: Names<Way> = Names {
         ("pccm", Way::Part(Method::Pccm)),
         ("pccm-first", Way::Part(Method::PccmFirst)),
         ("bi5", Way::Part(Method::Bi5)),
+        ("g2", Way::Part(Method::G2)),
     ],
-    elsewhere: &["g2"],
+    elsewhere: &[],
 };
 
 pub(crate) const LENS_METHODS: Names<lens::Method> = Names {

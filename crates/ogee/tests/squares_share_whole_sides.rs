@@ -222,3 +222,52 @@ fn quarters_of_quarters_are_named_in_the_frame_of_the_cage() {
     }
     assert!(depths.iter().all(|&count| count > 0), "{depths:?}");
 }
+
+#[test]
+fn curvature_continuous_parts_are_seen_to_be_so() {
+    let plate = cages::voxels(&[
+        [0, 0, 0],
+        [1, 0, 0],
+        [2, 0, 0],
+        [0, 1, 0],
+        [2, 1, 0],
+        [0, 2, 0],
+        [1, 2, 0],
+        [2, 2, 0],
+    ]);
+    let corner: Vec<[i32; 3]> = (1..8).map(|k| [k & 1, k >> 1 & 1, k >> 2]).collect();
+    for mesh in [plate, cages::voxels(&corner)] {
+        let view = PatchView::new(patches_by(&mesh, Method::G2)).unwrap();
+        // Faces of two levels of refinement.
+        let depths: Vec<bool> =
+            view.patches().iter().map(|(_, quads)| quads[(0, 0)].corner.is_some()).collect();
+        assert!(depths.contains(&true) && depths.contains(&false));
+        let found = report(&view);
+        assert!(found.is_closed());
+        let smooth = &found.continuity.smooth;
+        assert!(smooth.gap.max < 1e-12 * found.size() && smooth.angle.max < 1e-9, "{}", smooth.angle.max);
+        assert!(smooth.curvature.max < 1e-9 && smooth.kink.max < 1e-6, "{}", smooth.curvature.max);
+        // Every extraordinary vertex of the cage, named by its corner, and none besides.
+        let points = &found.extraordinary.points;
+        let level = ogee::Level::new(&mesh).unwrap();
+        let mut wanted: Vec<u32> = (0..mesh.points.len() as u32)
+            .filter(|&vertex| level.topology().ring(ogee::VertexId(vertex)).count() != 4)
+            .collect();
+        let mut named: Vec<u32> = points
+            .iter()
+            .map(|point| {
+                let at = point.sector.at;
+                let corner = at.corner.unwrap_or(match (at.u, at.v) {
+                    (0.0, 0.0) => 0,
+                    (1.0, 0.0) => 1,
+                    (1.0, 1.0) => 2,
+                    _ => 3,
+                });
+                mesh.faces.face(at.face.index())[corner as usize]
+            })
+            .collect();
+        named.sort_unstable();
+        wanted.sort_unstable();
+        assert_eq!(named, wanted);
+    }
+}

@@ -27,7 +27,7 @@ Examples:
   ogee inspect part.json --max-angle 0.01          .. exit code 1 if they meet at a larger angle
   ogee inspect cage.obj --html report.html         a page with pictures
   ogee inspect part.json --beside cage.obj --html report.html  the same, the limit beside the patches in each
-  ogee inspect cage.obj --methods limit,pccm,pccm-first --html report.html  one cage by several methods";
+  ogee inspect cage.obj --methods limit,pccm,g2 --html report.html  one cage by several methods";
 
 /// Measure the quality of a limit surface or of patches: gaps, angles, curvature, kinks of reflection lines
 #[derive(Debug, Args)]
