@@ -135,8 +135,14 @@ pub(crate) fn compare(
 fn points(mesh: &ControlMesh, measured: &[Report]) -> Vec<ComparedPoint> {
     let mut first: Vec<&ExtraordinaryPoint> = measured[0].extraordinary.points.iter().collect();
     first.sort_by(|a, b| b.range.mean_span().total_cmp(&a.range.mean_span()));
+    // A point of a part lies on one of the faces at the vertex, though not at the same place in space.
     let is_same = |a: &ExtraordinaryPoint, b: &ExtraordinaryPoint| {
-        (a.sector.kind, a.sector.faces) == (b.sector.kind, b.sector.faces) && key(mesh, a) == key(mesh, b)
+        let face = b.sector.at.face;
+        let is_there = match vertex_of(Some(mesh), &a.sector) {
+            Some(vertex) => mesh.faces.face(face.index()).contains(&vertex),
+            None => a.sector.at.face == face,
+        };
+        is_there && (a.sector.kind, a.sector.faces) == (b.sector.kind, b.sector.faces)
     };
     let near = |point: &ExtraordinaryPoint, report: &Report| {
         let same = report.extraordinary.points.iter().filter(|other| is_same(point, other));
@@ -148,12 +154,4 @@ fn points(mesh: &ControlMesh, measured: &[Report]) -> Vec<ComparedPoint> {
         ranges: measured.iter().map(|report| near(point, report)).collect(),
     });
     points.collect()
-}
-
-/// What a point is called on every surface of a cage: the vertex, or the middle of the face.
-fn key(mesh: &ControlMesh, point: &ExtraordinaryPoint) -> [Option<u32>; 2] {
-    match vertex_of(Some(mesh), &point.sector) {
-        Some(vertex) => [Some(vertex), None],
-        None => [None, Some(point.sector.at.face.0)],
-    }
 }

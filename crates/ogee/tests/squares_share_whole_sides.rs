@@ -247,27 +247,20 @@ fn curvature_continuous_parts_are_seen_to_be_so() {
         let smooth = &found.continuity.smooth;
         assert!(smooth.gap.max < 1e-12 * found.size() && smooth.angle.max < 1e-9, "{}", smooth.angle.max);
         assert!(smooth.curvature.max < 1e-9 && smooth.kink.max < 1e-6, "{}", smooth.curvature.max);
-        // Every extraordinary vertex of the cage, named by its corner, and none besides.
-        let points = &found.extraordinary.points;
+        // Every extraordinary vertex of the cage, on one of its faces, and none besides.
         let level = ogee::Level::new(&mesh).unwrap();
-        let mut wanted: Vec<u32> = (0..mesh.points.len() as u32)
-            .filter(|&vertex| level.topology().ring(ogee::VertexId(vertex)).count() != 4)
-            .collect();
-        let mut named: Vec<u32> = points
-            .iter()
-            .map(|point| {
-                let at = point.sector.at;
-                let corner = at.corner.unwrap_or(match (at.u, at.v) {
-                    (0.0, 0.0) => 0,
-                    (1.0, 0.0) => 1,
-                    (1.0, 1.0) => 2,
-                    _ => 3,
-                });
-                mesh.faces.face(at.face.index())[corner as usize]
-            })
-            .collect();
+        let limits = ogee::limit_vertices(&level, &mesh.points);
+        let valence = |vertex: u32| level.topology().ring(ogee::VertexId(vertex)).count();
+        let mut named: Vec<u32> = Vec::new();
+        for point in &found.extraordinary.points {
+            let corners = mesh.faces.face(point.sector.at.face.index());
+            let distance = |vertex: &u32| limits[*vertex as usize].position.distance(point.sector.position);
+            let nearest = corners.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap();
+            assert_eq!(valence(nearest), point.sector.faces);
+            named.push(nearest);
+        }
         named.sort_unstable();
-        wanted.sort_unstable();
+        let wanted: Vec<u32> = (0..mesh.points.len() as u32).filter(|&vertex| valence(vertex) != 4).collect();
         assert_eq!(named, wanted);
     }
 }

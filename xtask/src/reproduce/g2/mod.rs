@@ -34,12 +34,14 @@ pub(crate) fn write(root: &Path) -> Result<Vec<String>> {
     {
         let [least, greatest] = bounds(&cage.mesh.points);
         let size = least.distance(greatest);
+        let from = Vec3::new(0.64, 0.5, 0.58);
         let look = Look {
-            from: Vec3::new(0.55, -0.7, 0.46),
-            at: 0.5 * (least + greatest),
-            height: 0.72 * size,
-            light: ceiling(greatest.z + 0.5 * size, Vec3::new(0.8, 0.6, 0.0)),
-            period: size / 14.0,
+            from,
+            // Room for the legend below.
+            at: 0.5 * (least + greatest) - Vec3::new(0.0, 0.0, 0.08 * size),
+            height: 0.95 * size,
+            light: lamps(0.5 * (least + greatest), from, size),
+            period: size / 6.0,
             curvature: 6.0 / size,
         };
         let file = format!("{}.png", cage.name.replace(' ', "-"));
@@ -57,8 +59,9 @@ pub(crate) fn write(root: &Path) -> Result<Vec<String>> {
         let saddle = Fan::new(valence, |x, y| 0.3 * (x * x - y * y));
         let look = Look {
             from: Vec3::new(0.2, -0.6, 0.8),
-            at: Vec3::ZERO,
-            height: 2.9,
+            // Room for the legend below.
+            at: Vec3::new(0.0, -0.25, 0.0),
+            height: 3.3,
             light: ceiling(4.0, Vec3::new(0.8, 0.6, 0.0)),
             period: 0.35,
             curvature: 0.5,
@@ -117,6 +120,13 @@ const DISTANCE: &str = "\
 The largest distance of a cap from the limit surface on the saddle 0.3 (x^2 - y^2), edges at the vertex of length one, by level:
 
 ";
+
+/// Lamps that face what is seen from a direction, by its size away.
+fn lamps(middle: Vec3, from: Vec3, size: f64) -> PlaneLight {
+    let from = from.normalized().unwrap_or_default();
+    let right = Vec3::new(0.0, 0.0, 1.0).cross(from).normalized().unwrap_or_default();
+    PlaneLight { centre: middle + size * from, axes: [right, from.cross(right)], half: [f64::INFINITY; 2] }
+}
 
 fn ceiling(height: f64, across: Vec3) -> PlaneLight {
     let axes = [across, Vec3::new(-across.y, across.x, 0.0)];
