@@ -29,8 +29,12 @@ pub(crate) fn write(root: &Path) -> Result<Vec<String>> {
     let mut page = Page { folder, text: INTRODUCTION.to_owned(), log: Vec::new() };
     page.text += SOLIDS;
     writeln!(page.text, "{}", solid_table::table()?)?;
-    for cage in
-        cages::cages().iter().filter(|cage| ["corner of 7 cells", "jack of 7 cells"].contains(&&*cage.name))
+    // Each with the share of its cage's diagonal that fills a picture.
+    let shown = [("corner of 7 cells", 0.98), ("jack of 7 cells", 0.7)];
+    let cages = cages::cages();
+    for (cage, share) in shown
+        .into_iter()
+        .filter_map(|(name, share)| Some((cages.iter().find(|cage| cage.name == name)?, share)))
     {
         let [least, greatest] = bounds(&cage.mesh.points);
         let size = least.distance(greatest);
@@ -39,7 +43,7 @@ pub(crate) fn write(root: &Path) -> Result<Vec<String>> {
             from,
             // Room for the legend below.
             at: 0.5 * (least + greatest) - Vec3::new(0.0, 0.0, 0.08 * size),
-            height: 0.95 * size,
+            height: share * size,
             light: lamps(0.5 * (least + greatest), from, size),
             period: size / 6.0,
             curvature: 6.0 / size,
@@ -55,7 +59,7 @@ pub(crate) fn write(root: &Path) -> Result<Vec<String>> {
     writeln!(page.text, "\n{}", shape_table::table()?)?;
     page.text += EXAMPLE;
     writeln!(page.text, "{}", shape_table::example()?)?;
-    for valence in [5, 8] {
+    for (valence, limit) in [(5, 0.3), (8, 0.5)] {
         let saddle = Fan::new(valence, |x, y| 0.3 * (x * x - y * y));
         let look = Look {
             from: Vec3::new(0.2, -0.6, 0.8),
@@ -64,7 +68,7 @@ pub(crate) fn write(root: &Path) -> Result<Vec<String>> {
             height: 3.3,
             light: ceiling(4.0, Vec3::new(0.8, 0.6, 0.0)),
             period: 0.35,
-            curvature: 0.5,
+            curvature: limit,
         };
         let caption =
             format!("Highlight lines and mean curvature of the saddle at valence {valence} by each method");
