@@ -110,7 +110,7 @@ pub(crate) fn compare(
         .zip(surfaces)
         .map(|(&way, &surface)| {
             let crease_angle = (way != Way::Limit).then_some(CREASE_ANGLE);
-            let options = ReportOptions { crease_angle, ..ReportOptions::new(field.clone()) };
+            let options = ReportOptions { crease_angle, ..ReportOptions::new(field) };
             Report::new(surface, &options)
                 .ok_or_else(|| subject.failure("no_surface", "there is no face whose points are finite"))
         })
