@@ -1,7 +1,7 @@
 //! Chores of the workspace. `models [DIR]` writes the shipped cages, `bench` times whole commands, `bench limit`
 //! evaluation beside other programs, `bench threads` what a second thread gains; `bench-worker` is a part of that. `reproduce interrogation`,
-//! `reproduce curve-networks` and `reproduce lens` make papers' figures and tables again, `tables [DIR]` the shipped weights of G2 caps,
-//! `bless` the pictures that tests compare with.
+//! `reproduce curve-networks`, `reproduce lens` and `reproduce g2` make figures and tables again, `tables [DIR]` the shipped weights of G2
+//! caps, `bless` the pictures that tests compare with.
 
 mod bench;
 mod models;
@@ -58,6 +58,12 @@ fn main() -> Result<()> {
             let folder = rest.first().map_or_else(|| tables::folder(&root()), PathBuf::from);
             tables::write_all(&folder, &mut std::io::stdout())
         }
+        ["reproduce", "g2"] => {
+            for line in reproduce::g2::write(&root())? {
+                println!("{line}");
+            }
+            Ok(())
+        }
         ["bless"] => {
             let mut command = std::process::Command::new(env!("CARGO"));
             command.args(["test", "--package", "ogee-render", "--test", "pictures_stay_as_they_were_judged"]);
@@ -72,7 +78,7 @@ fn main() -> Result<()> {
         }
         _ => {
             bail!(
-                "usage: cargo xtask models [DIR] | bench [limit [TASK] | threads] | reproduce interrogation|curve-networks|lens | tables [DIR] | bless"
+                "usage: cargo xtask models [DIR] | bench [limit [TASK] | threads] | reproduce interrogation|curve-networks|lens|g2 | tables [DIR] | bless"
             )
         }
     }

@@ -7,6 +7,7 @@
 //! | `commands/*` | one file per command |
 //! | `addresses` | where to evaluate: files of points, grids |
 //! | `cage` | opening and reading a cage |
+//! | `comparison` | one cage by several methods |
 //! | `evaluation` | samples in a stream |
 //! | `inspection` | figures on quality: as JSON, as a table, as a page |
 //! | `lenses` | what was done at vertices of valence 2 |
@@ -25,6 +26,7 @@ mod addresses;
 mod arguments;
 mod cage;
 mod commands;
+mod comparison;
 mod curves;
 mod drawing;
 mod error;

@@ -9,6 +9,8 @@ use ogee::lens;
 use ogee::{Boundary, Creasing, Derivatives};
 use ogee_formats::step::{Schema, Unit};
 
+use crate::comparison::Way;
+
 /// A parser of values that go by one or more names.
 #[derive(Clone)]
 pub(crate) struct Names<T: Clone + Send + Sync + 'static> {
@@ -53,6 +55,17 @@ pub(crate) const METHODS: Names<Method> = Names {
         ("pccm-first", Method::PccmFirst),
         ("bi5", Method::Bi5),
         ("g2", Method::G2),
+    ],
+    elsewhere: &[],
+};
+
+pub(crate) const WAYS: Names<Way> = Names {
+    values: &[
+        ("limit", Way::Limit),
+        ("pccm", Way::Part(Method::Pccm)),
+        ("pccm-first", Way::Part(Method::PccmFirst)),
+        ("bi5", Way::Part(Method::Bi5)),
+        ("g2", Way::Part(Method::G2)),
     ],
     elsewhere: &[],
 };

@@ -263,7 +263,7 @@ impl PartArguments {
 }
 
 /// What a refused conversion means: a bad cage, a wrong level, or a wish that was not fulfilled.
-fn refusal(cage: &Cage, error: &ConvertError) -> Failure {
+pub(crate) fn refusal(cage: &Cage, error: &ConvertError) -> Failure {
     let mut failure = match error {
         ConvertError::Topology(error) => return cage.refused(&error.defects),
         ConvertError::Lens(error) => return crate::commands::lens::refusal(cage, error),

@@ -267,6 +267,69 @@ fn the_limit_stands_beside_the_patches_in_every_picture() {
 }
 
 #[test]
+fn one_cage_by_several_methods_stands_side_by_side() {
+    // Wider above: on a cube, and on what a linear map makes of it, curvature is continuous by symmetry.
+    let folder = Folder::new();
+    let above = ["v -1 -1 1", "v 1 -1 1", "v -1 1 1", "v 1 1 1"];
+    let wider = |text: String, vertex: &str| {
+        let wide = vertex[..vertex.len() - 2].replace('1', "2") + " 1";
+        text.replace(&format!("{vertex}\n"), &format!("{wide}\n"))
+    };
+    folder.write("stump.obj", above.into_iter().fold(CUBE.to_owned(), wider));
+    let arguments = "inspect stump.obj --methods limit,pccm,g2 --html page.html --json";
+    let report = folder.ogee(arguments).expect(0).json();
+    let surfaces = report["surfaces"].as_array().unwrap();
+    let methods: Vec<&Value> = surfaces.iter().map(|surface| &surface["method"]).collect();
+    assert_eq!(methods, ["limit", "pccm", "g2"]);
+    assert_eq!([&surfaces[0]["kind"], &surfaces[1]["kind"]], ["cage", "patches"]);
+    let jump = |k: usize| surfaces[k]["continuity"]["smooth"]["curvature_relative"]["max"].as_f64().unwrap();
+    assert!(jump(0) < 1e-9 && jump(1) > 0.01 && jump(2) < 1e-9, "{} {} {}", jump(0), jump(1), jump(2));
+    // Every corner, by every method.
+    let points = report["points"].as_array().unwrap();
+    assert_eq!(points.len(), 8);
+    for point in points {
+        assert!(point["vertex"].is_u64() && point["faces"] == 3);
+        let ranges = point["ranges"].as_array().unwrap();
+        assert_eq!(ranges.len(), 3);
+        for (range, reach) in ranges.iter().zip([0.5, 0.5, 1.0]) {
+            // Caps lie on faces of the first refinement: the same area.
+            close(&range["reach"], reach);
+            let [least, greatest] = [0, 1].map(|k| range["mean"][k].as_f64().unwrap());
+            assert!(greatest - least > 0.05 && greatest < 0.5, "{range}");
+        }
+    }
+    // What a surface is measured as beside others it is measured as by itself.
+    let alone = folder.ogee("inspect stump.obj --json").expect(0).json();
+    assert_eq!(alone["continuity"], surfaces[0]["continuity"]);
+    let range = &alone["extraordinary"]["points"][0]["range"];
+    assert!(points.iter().any(|point| point["ranges"][0] == *range));
+    let page = String::from_utf8(folder.read("page.html")).unwrap();
+    assert_well_formed(&page);
+    assert_eq!(page.matches("<img src=\"data:image/png;base64,iVBOR").count(), 6);
+    for method in ["limit", "pccm", "g2"] {
+        assert_eq!(page.matches(&format!("<p class=\"which\">{method}</p>")).count(), 2);
+    }
+    assert!(page.contains("Highlight lines") && page.contains("vertex 7, 3 faces"));
+    // People see the same.
+    let table = folder.ogee("inspect stump.obj --methods limit,pccm").expect(0).stderr;
+    assert!(table.contains("pccm: angle") && table.contains("vertex 0, 3 faces: limit"), "{table}");
+}
+
+#[test]
+fn methods_are_for_cages() {
+    let folder = Folder::with_cube();
+    folder.write("bent.json", bent());
+    for (arguments, says) in [
+        ("inspect bent.json --methods limit", "for cages"),
+        ("inspect cube.obj --methods limit,nurbs", "unknown value 'nurbs'"),
+        ("inspect cube.obj --methods limit --max-angle 1", "cannot be used"),
+    ] {
+        let run = folder.ogee(arguments).expect(2);
+        assert!(run.stderr.contains(says), "{arguments}: {}", run.stderr);
+    }
+}
+
+#[test]
 fn what_is_beside_is_refused_as_what_is_inspected() {
     let folder = Folder::with_cube();
     for (arguments, code, says) in [

@@ -3,6 +3,7 @@
 #[cfg(feature = "gpu")]
 mod adapters;
 pub(crate) mod curve_networks;
+pub(crate) mod g2;
 pub(crate) mod interrogation;
 pub(crate) mod lens;
 mod plot;

@@ -11,10 +11,12 @@ use ogee_render::{ANGLE, Camera, THREE_QUARTER, default_light, outline};
 use serde::Serialize;
 
 use crate::cage::{Cage, CageArguments};
+use crate::comparison::{CREASE_ANGLE, Comparison, Way, compare, views};
 use crate::error::{Exit, Failure, Finding};
-use crate::inspection::{Figures, PICTURE, PageOf, Second, table};
+use crate::inspection::{Figures, PICTURE, PageOf, Second, compared_page, named, table};
+use crate::names::WAYS;
 use crate::output::Destination;
-use crate::report::{Console, bytes, count, figure};
+use crate::report::{Console, Table, bytes, count, figure};
 use crate::subject::{Subject, or_part};
 use crate::system;
 
@@ -24,7 +26,8 @@ Examples:
   ogee convert cage.obj -o part.json               the patches of a part ..
   ogee inspect part.json --max-angle 0.01          .. exit code 1 if they meet at a larger angle
   ogee inspect cage.obj --html report.html         a page with pictures
-  ogee inspect part.json --beside cage.obj --html report.html  the same, the limit beside the patches in each";
+  ogee inspect part.json --beside cage.obj --html report.html  the same, the limit beside the patches in each
+  ogee inspect cage.obj --methods limit,pccm,g2 --html report.html  one cage by several methods";
 
 /// Measure the quality of a limit surface or of patches: gaps, angles, curvature, kinks of reflection lines
 #[derive(Debug, Args)]
@@ -39,6 +42,10 @@ pub(crate) struct Inspect {
     /// with the same camera, light and scale of colours
     #[arg(long, value_name = "CAGE|PART.json", requires = "html")]
     beside: Option<PathBuf>,
+    /// The limit surface of a cage, and parts made from it by these methods, side by side: figures, how far curvature ranges
+    /// around each point where not four faces meet, and in the page pictures
+    #[arg(long, value_name = "METHOD,..", value_delimiter = ',', value_parser = WAYS, conflicts_with_all = ["beside", "max_angle", "crease_angle"])]
+    methods: Vec<Way>,
     /// Fail if two faces meet at a larger angle, in degrees, where there is no crease
     #[arg(long, value_name = "DEG", value_parser = degrees, allow_negative_numbers = true)]
     max_angle: Option<f64>,
@@ -46,9 +53,6 @@ pub(crate) struct Inspect {
     #[arg(long, value_name = "DEG", value_parser = degrees, allow_negative_numbers = true)]
     crease_angle: Option<f64>,
 }
-
-/// Patches that meet at this angle or more, in degrees, are meant to: a fault is rarely as large, a crease rarely less.
-const CREASE_ANGLE: f64 = 10.0;
 
 /// An angle that faces can have.
 fn degrees(text: &str) -> Result<f64, String> {
@@ -69,6 +73,15 @@ struct Report<'a> {
     passed: Option<bool>,
     seconds: Seconds,
     peak_bytes: Option<u64>,
+    notes: &'a [Finding],
+}
+
+/// The report of a comparison, for programs.
+#[derive(Serialize)]
+struct ComparisonReport<'a> {
+    #[serde(flatten)]
+    comparison: &'a Comparison,
+    seconds: Seconds,
     notes: &'a [Finding],
 }
 
@@ -98,6 +111,10 @@ impl Inspect {
         let progress = console.progress();
         progress.step("reading");
         let subject = Subject::read(&self.cage)?;
+        if !self.methods.is_empty() {
+            drop(progress);
+            return self.compare(&subject, html.as_ref(), console);
+        }
         let other = match &self.beside {
             Some(file) => Some(Subject::read(&self.cage.for_file(file))?),
             None => None,
@@ -174,6 +191,49 @@ impl Inspect {
         Ok(ExitCode::from(Exit::Check as u8))
     }
 
+    /// One cage by several methods.
+    fn compare(
+        &self,
+        subject: &Subject,
+        html: Option<&Destination>,
+        console: &Console,
+    ) -> Result<ExitCode, Failure> {
+        let Some(cage) = subject.cage() else {
+            return Err(Failure::usage(format!("{} has patches: --methods is for cages", subject.name)));
+        };
+        if let Some(html) = html {
+            html.check()?;
+        }
+        let progress = console.progress();
+        progress.step("converting");
+        let start = Instant::now();
+        let parts = views(cage, &self.methods)?;
+        let prepare = subject.prepare_seconds + start.elapsed().as_secs_f64();
+        progress.step("measuring");
+        let mut notes = subject.notes();
+        let (comparison, page, measure) = subject.look(|limit| {
+            let surfaces = parts.iter().map(|part| match part {
+                Some(view) => view as &dyn Surface,
+                None => limit,
+            });
+            let surfaces: Vec<&dyn Surface> = surfaces.collect();
+            let start = Instant::now();
+            let comparison = compare(subject, cage, &self.methods, &surfaces)?;
+            let measure = start.elapsed().as_secs_f64();
+            let page = html.map(|_| compared_page(&subject.name, &comparison, &surfaces, &notes));
+            Ok::<_, Failure>((comparison, page, measure))
+        })?;
+        if let (Some(html), Some((text, fault))) = (html, page) {
+            html.write(|out| out.write_all(text.as_bytes()))?;
+            notes.extend(fault);
+        }
+        drop(progress);
+        let seconds = Seconds { read: subject.read_seconds, prepare, measure, draw: None };
+        console.table(&subject.name, &comparison_table(&comparison, console.is_verbose()), &notes);
+        console.json(&ComparisonReport { comparison: &comparison, seconds, notes: &notes })?;
+        Ok(ExitCode::SUCCESS)
+    }
+
     /// From which angle on joints count as creases, where that is not for the cage to say.
     fn crease_angle(&self, subject: &Subject) -> Result<Option<f64>, Failure> {
         let crease_angle = self.crease_angle.or(subject.cage().is_none().then_some(CREASE_ANGLE));
@@ -204,4 +264,32 @@ fn measure(
     let lines =
         Lines { eye: camera.eye.into(), light_centre: light.centre.into(), light_axis: light.axes[0].into() };
     Ok((Figures::new(&measured, subject.faces(), mesh), light, lines))
+}
+
+/// Points of a comparison that are listed without `--verbose`.
+const FEW: usize = 8;
+
+/// A comparison as people read it on a terminal.
+fn comparison_table(comparison: &Comparison, verbose: bool) -> Table {
+    let mut table = Table::default();
+    table.row("cage", count(comparison.faces, "face", "faces"));
+    for surface in &comparison.surfaces {
+        let smooth = &surface.figures.continuity.smooth;
+        let [angle, jump, kink] = [&smooth.angle_deg, &smooth.curvature_relative, &smooth.kink_deg]
+            .map(|metric| figure(metric.max));
+        table.row(
+            "method",
+            format!("{}: angle {angle} deg, curvature {jump}, kink {kink} deg", surface.method),
+        );
+    }
+    let listed = if verbose { usize::MAX } else { FEW };
+    for point in comparison.points.iter().take(listed) {
+        let spans = comparison.surfaces.iter().zip(&point.ranges).filter_map(|(surface, range)| {
+            let [low, high] = range.as_ref()?.mean;
+            Some(format!("{} {}", surface.method, figure(high - low)))
+        });
+        let spans: Vec<String> = spans.collect();
+        table.row("range", format!("{}: {}", named(&point.place), spans.join(", ")));
+    }
+    table
 }

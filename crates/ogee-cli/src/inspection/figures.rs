@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use ogee::ControlMesh;
 use ogee::quality::{
-    Address, Behaviour, Bend, Cause, Distribution, ExtraordinaryPoint, JointPlace, Joints, LEVELS, Metric,
-    PointWithoutPlane, Report, Sector, SectorKind,
+    Address, Behaviour, Bend, Cause, CurvatureRange, Distribution, ExtraordinaryPoint, JointPlace, Joints,
+    LEVELS, Metric, PointWithoutPlane, Report, Sector, SectorKind,
 };
 use serde::Serialize;
 
@@ -158,7 +158,23 @@ pub(crate) struct Point {
     pub(crate) growth: f64,
     /// Of mean curvature round the ring of radius `2^-6`.
     pub(crate) swing: f64,
+    pub(crate) range: Range,
     pub(crate) rings: [Ring; LEVELS.len()],
+}
+
+/// The least and the greatest curvature over the faces at a point.
+#[derive(Clone, Copy, Serialize)]
+pub(crate) struct Range {
+    /// Over how much of each side of the faces.
+    pub(crate) reach: f64,
+    pub(crate) mean: [f64; 2],
+    pub(crate) gauss: [f64; 2],
+}
+
+impl From<&CurvatureRange> for Range {
+    fn from(&CurvatureRange { reach, mean, gauss }: &CurvatureRange) -> Range {
+        Range { reach, mean, gauss }
+    }
 }
 
 #[derive(Serialize)]
@@ -319,7 +335,8 @@ fn name(kind: SectorKind) -> &'static str {
     }
 }
 
-fn place(sector: &Sector, mesh: Option<&ControlMesh>) -> Place {
+/// The place of a point; `mesh` names its vertex.
+pub(crate) fn place_of(sector: &Sector, mesh: Option<&ControlMesh>) -> Place {
     Place {
         vertex: vertex_of(mesh, sector),
         at: sector.at.into(),
@@ -331,7 +348,7 @@ fn place(sector: &Sector, mesh: Option<&ControlMesh>) -> Place {
 
 fn point(point: &ExtraordinaryPoint, mesh: Option<&ControlMesh>) -> Point {
     Point {
-        place: place(&point.sector, mesh),
+        place: place_of(&point.sector, mesh),
         behaviour: match point.behaviour {
             Behaviour::Flat => "flat",
             Behaviour::Bounded => "bounded",
@@ -339,6 +356,7 @@ fn point(point: &ExtraordinaryPoint, mesh: Option<&ControlMesh>) -> Point {
         },
         growth: point.growth,
         swing: swing(point),
+        range: Range::from(&point.range),
         rings: std::array::from_fn(|k| {
             let ogee::quality::Ring { mean, mean_swing, gauss_swing } = point.rings[k];
             Ring { level: LEVELS[k], mean, mean_swing, gauss_swing }
@@ -348,7 +366,7 @@ fn point(point: &ExtraordinaryPoint, mesh: Option<&ControlMesh>) -> Point {
 
 fn without_plane(point: &PointWithoutPlane, mesh: Option<&ControlMesh>) -> WithoutPlane {
     WithoutPlane {
-        place: place(&point.sector, mesh),
+        place: place_of(&point.sector, mesh),
         cause: match point.cause {
             Cause::Rules => "rules",
             Cause::Slow => "slow",

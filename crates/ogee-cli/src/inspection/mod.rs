@@ -6,9 +6,11 @@
 //! | `verdict` | what a figure means |
 //! | `table` | the table |
 //! | `page`, `page.css` | the page of HTML |
+//! | `compared` | the page of one cage by several methods |
 //! | `marks`, `pictures`, `chart` | what it points at, its pictures, its drawings |
 
 mod chart;
+mod compared;
 pub(crate) mod figures;
 mod marks;
 mod page;
@@ -16,9 +18,10 @@ mod pictures;
 mod table;
 mod verdict;
 
+pub(crate) use compared::compared_page;
 pub(crate) use figures::Figures;
 pub(crate) use pictures::SIZE as PICTURE;
-pub(crate) use table::table;
+pub(crate) use table::{named, table};
 
 use ogee::ControlMesh;
 use ogee::quality::{Address, PlaneLight, Sector, Surface};
@@ -84,7 +87,7 @@ fn missing(pictures: &[Picture], name: &str) -> Option<Finding> {
 }
 
 /// The vertex of the cage that a point is, if it is one.
-fn vertex_of(mesh: Option<&ControlMesh>, sector: &Sector) -> Option<u32> {
+pub(crate) fn vertex_of(mesh: Option<&ControlMesh>, sector: &Sector) -> Option<u32> {
     let Address { face, corner, u, v } = sector.at;
     let corners = mesh?.faces.face(face.index());
     let at = match (corner, (u, v)) {

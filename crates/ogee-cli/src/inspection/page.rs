@@ -38,14 +38,7 @@ impl Page<'_> {
             self.points(),
             self.notes(),
         ];
-        format!(
-            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" \
-             content=\"width=device-width, initial-scale=1\">\n<title>{} \u{2013} surface quality</title>\n<style>\n{}</style>\n\
-             </head>\n<body>\n<main>\n{}</main>\n</body>\n</html>\n",
-            name,
-            include_str!("page.css"),
-            sections.concat()
-        )
+        document(&name, &sections.concat())
     }
 
     fn header(&self, name: &str) -> String {
@@ -326,18 +319,32 @@ impl Page<'_> {
     }
 
     fn notes(&self) -> String {
-        let items: String =
-            self.notes.iter().map(|note| format!("<li>{}</li>\n", escape(&note.message))).collect();
-        let notes = match items.is_empty() {
-            true => String::new(),
-            false => format!("<section>\n<h2>Notes</h2>\n<ul class=\"notes\">\n{items}</ul>\n</section>\n"),
-        };
-        format!("{notes}<footer>Measured by ogee {}.</footer>\n", env!("CARGO_PKG_VERSION"))
+        ending(self.notes)
     }
 }
 
+/// A file of HTML with everything in it.
+pub(super) fn document(name: &str, content: &str) -> String {
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" \
+         content=\"width=device-width, initial-scale=1\">\n<title>{name} \u{2013} surface quality</title>\n<style>\n{}</style>\n\
+         </head>\n<body>\n<main>\n{content}</main>\n</body>\n</html>\n",
+        include_str!("page.css"),
+    )
+}
+
+/// What else is worth knowing, and the end of a page.
+pub(super) fn ending(notes: &[Finding]) -> String {
+    let items: String = notes.iter().map(|note| format!("<li>{}</li>\n", escape(&note.message))).collect();
+    let notes = match items.is_empty() {
+        true => String::new(),
+        false => format!("<section>\n<h2>Notes</h2>\n<ul class=\"notes\">\n{items}</ul>\n</section>\n"),
+    };
+    format!("{notes}<footer>Measured by ogee {}.</footer>\n", env!("CARGO_PKG_VERSION"))
+}
+
 /// A picture and what is drawn over it.
-fn frame(source: &str, title: &str, marks: &str) -> String {
+pub(super) fn frame(source: &str, title: &str, marks: &str) -> String {
     let [width, height] = SIZE;
     format!(
         "<div class=\"frame\"><img src=\"{source}\" width=\"{width}\" height=\"{height}\" alt=\"{title}\">{marks}</div>"
@@ -345,13 +352,13 @@ fn frame(source: &str, title: &str, marks: &str) -> String {
 }
 
 /// The name of a file without its folders.
-fn short(name: &str) -> String {
+pub(super) fn short(name: &str) -> String {
     let last = std::path::Path::new(name).file_name();
     escape(&last.map_or_else(|| name.into(), |last| last.to_string_lossy()))
 }
 
 /// The unit of angles.
-const DEGREES: &str = "<small> deg</small>";
+pub(super) const DEGREES: &str = "<small> deg</small>";
 
 /// Points that are listed.
 const LISTED: usize = 10;

@@ -134,6 +134,60 @@ pub(super) fn pictures(
         .collect()
 }
 
+/// A kind of picture of several surfaces, side by side.
+pub(super) struct Row {
+    pub(super) title: &'static str,
+    pub(super) caption: &'static str,
+    /// The address of each picture, or why it is not there.
+    pub(super) sources: Vec<Result<String, RenderError>>,
+    /// Where the colours of a map end, in all of them.
+    pub(super) limit: Option<f64>,
+}
+
+/// Surfaces of one cage side by side, as the camera sees the first and with the colours of the first.
+pub(super) fn rows(surfaces: &[&dyn Surface], size: f64) -> Result<Vec<Row>, RenderError> {
+    let camera = Camera::fit_from(THREE_QUARTER, &outline(surfaces[0]), ANGLE, SIZE);
+    let light = lamps_behind(&camera, size);
+    let pattern = Pattern::Lines { period: size / LAMPS, width: 0.5, phase: 0.0 };
+    let wanted = [
+        (
+            Style::Highlight { light, pattern },
+            "Highlight lines",
+            "Stripes where normals meet parallel lamps on the side of the eye. They kink where curvature jumps.",
+        ),
+        (
+            Style::Curvature { quantity: Quantity::Mean, limit: None },
+            "Mean curvature",
+            "One scale of colours for all. Blue where the surface bulges, red where it is hollow.",
+        ),
+    ];
+    wanted
+        .into_iter()
+        .map(|(style, title, caption)| {
+            let fine = SIZE.map(|side| SAMPLES * side);
+            let scene = Scene { camera, size: fine, style, sampling: Sampling::Exact };
+            let first = render(surfaces[0], &scene)?;
+            let others = surfaces[1..]
+                .iter()
+                .map(|&surface| render(surface, &scene.beside(&first)).map(|picture| address(&picture)));
+            let limit = first.limit;
+            let sources = std::iter::once(Ok(address(&first))).chain(others).collect();
+            Ok(Row { title, caption, sources, limit })
+        })
+        .collect()
+}
+
+/// Lamps over the diagonal, where they are on the side of the eye.
+const LAMPS: f64 = 5.0;
+
+/// Upright lamps on a plane that faces what is seen, by the size of it away: they meet the normal of every point in sight.
+fn lamps_behind(camera: &Camera, size: f64) -> PlaneLight {
+    let towards = (camera.eye - camera.at).normalized().unwrap_or(ACROSS);
+    let right = camera.up.cross(towards).normalized().unwrap_or(ACROSS);
+    let axes = [right, towards.cross(right)];
+    PlaneLight { centre: camera.at + size * towards, axes, half: [f64::INFINITY; 2] }
+}
+
 /// A picture as an address that holds all of it.
 fn address(picture: &ogee_render::Picture) -> String {
     let mut png = Vec::new();

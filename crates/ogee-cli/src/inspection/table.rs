@@ -111,7 +111,7 @@ pub(super) fn faces_of(kind: &str) -> &'static str {
 }
 
 /// `vertex 12, 5 faces`, or the place on a face where the point is no vertex.
-pub(super) fn named(point: &Place) -> String {
+pub(crate) fn named(point: &Place) -> String {
     let what = match (point.vertex, point.at) {
         (Some(vertex), _) => format!("vertex {vertex}"),
         (None, At { face, corner: Some(_), u: 1.0, v: 1.0 }) => format!("the middle of face {face}"),

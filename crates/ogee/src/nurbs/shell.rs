@@ -131,6 +131,21 @@ impl Quarters {
     pub fn iter(self) -> impl Iterator<Item = u32> {
         (0..self.depth).rev().map(move |step| (self.path >> (2 * step) & 3) as u32)
     }
+
+    /// Parameters of the quad that a place in the innermost quarter has.
+    ///
+    /// Quarter `k` has its `(0, 0)` at corner `k` of what it is a quarter of, and its `u` along the side that leaves that corner.
+    pub fn outwards(self, place: [f64; 2]) -> [f64; 2] {
+        (0..self.depth).fold(place, |[u, v], step| {
+            let [u, v] = [u / 2.0, v / 2.0];
+            match self.path >> (2 * step) & 3 {
+                0 => [u, v],
+                1 => [1.0 - v, u],
+                2 => [1.0 - u, 1.0 - v],
+                _ => [v, 1.0 - u],
+            }
+        })
+    }
 }
 
 impl FromIterator<u32> for Quarters {

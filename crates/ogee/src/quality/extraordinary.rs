@@ -1,11 +1,14 @@
-//! Extraordinary points: how curvature behaves on smaller and smaller rings around them, and which have no tangent plane.
+//! Extraordinary points: how curvature behaves on smaller and smaller rings around them, how far it ranges over the faces that
+//! meet there, and which have no tangent plane.
 //!
 //! Around a point where `n` squares meet, samples lie on quarters of circles of parameter radius `2^-j` in every square, in
 //! eight directions. Beside an extraordinary vertex of a limit surface curvature neither settles nor stays bounded, so what
 //! can be compared is how much it swings round a ring, and by what factor it grows from a ring to one of half the radius.
 
+use std::collections::HashSet;
+
 use super::continuity::jet;
-use super::{Address, FLAT, Layout, Side, Surface};
+use super::{Address, CurvatureRange, FLAT, Layout, Side, Square, Surface};
 use crate::limit::{Derivatives, Flags, Samples};
 use crate::math::{Vec3, par};
 use crate::patch::Location;
@@ -67,6 +70,8 @@ pub struct ExtraordinaryPoint {
     pub sector: Sector,
     /// One for each of [`LEVELS`].
     pub rings: [Ring; LEVELS.len()],
+    /// How far curvature ranges over the faces around it.
+    pub range: CurvatureRange,
     /// The factor by which the mean of `|H|` grows when the radius is halved, over the rings from `2^-8` inwards.
     pub growth: f64,
     /// What becomes of curvature.
@@ -133,6 +138,7 @@ impl Extraordinary {
     pub(super) fn new(surface: &dyn Surface, is_sharp: &[bool], size: f64, most: usize) -> Extraordinary {
         let mut found = Extraordinary::default();
         let mut rings = Vec::new();
+        let mut places = HashSet::new();
         let sectors = sectors(surface.layout(), is_sharp);
         let mut samples = Samples::default();
         for block in sectors.chunks(BLOCK) {
@@ -144,10 +150,11 @@ impl Extraordinary {
                 first = here.end;
                 let flags = samples.flags[here.start];
                 let is_flagged = flags.contains(Flags::AT_EXTRAORDINARY);
-                if !is_flagged && (fan.kind != SectorKind::Interior || fan.corners.len() == 4) {
+                if !is_flagged && fan.is_regular() {
                     continue;
                 }
                 found.found += 1;
+                places.extend(corners[here.clone()].iter().map(|&corner| key(corner)));
                 let at = surface.address(corners[here.start]);
                 let position = samples.position[here.start];
                 let sector = Sector { at, position, faces: fan.corners.len(), kind: fan.kind };
@@ -169,7 +176,8 @@ impl Extraordinary {
         for block in rings.chunks(BLOCK) {
             found.points.extend(par::map(block.len(), |k| {
                 let (fan, sector) = block[k];
-                examine(surface, fan, sector, size)
+                let is_alone = !fan.others(surface).any(|corner| places.contains(&key(corner)));
+                examine(surface, fan, sector, size, if is_alone { 1.0 } else { 0.5 })
             }));
         }
         let swing = |point: &ExtraordinaryPoint| point.rings[RANKED].mean_swing;
@@ -189,7 +197,13 @@ fn spread(normals: &[Vec3]) -> f64 {
     first.map_or(0.0, |first| farthest(farthest(first).1).0.to_degrees())
 }
 
-fn examine(surface: &dyn Surface, fan: &Fan, sector: Sector, size: f64) -> ExtraordinaryPoint {
+/// A place as one of a set: parameters to nine digits.
+fn key(at: Location) -> (usize, [i64; 2]) {
+    (at.parametric_face(), at.parameters().map(|x| (x * f64::from(1 << 30)).round() as i64))
+}
+
+/// Rings, and the range over the faces as far as `reach`, a share of their sides.
+fn examine(surface: &dyn Surface, fan: &Fan, sector: Sector, size: f64, reach: f64) -> ExtraordinaryPoint {
     let mut samples = Samples::default();
     let rings = LEVELS.map(|level| {
         let radius = 0.5_f64.powi(level as i32);
@@ -208,6 +222,10 @@ fn examine(surface: &dyn Surface, fan: &Fan, sector: Sector, size: f64) -> Extra
         let (_, gauss_swing) = swing(curvatures.iter().map(|c| c.1), (FLAT / size) * (FLAT / size));
         Ring { mean, mean_swing, gauss_swing }
     });
+    let around = CurvatureRange::places(reach);
+    let places: Vec<Location> = around.iter().flat_map(|&[x, y]| fan.places(surface, x, y)).collect();
+    surface.evaluate(&places, Derivatives::Second, &mut samples);
+    let range = CurvatureRange::of((0..places.len()).map(|i| jet(&samples, i)), reach);
     let (outer, inner) = (rings[SETTLED].mean, rings[LEVELS.len() - 1].mean);
     let halvings = LEVELS[LEVELS.len() - 1] - LEVELS[SETTLED];
     let is_flat = !(outer > FLAT / size && inner > FLAT / size);
@@ -217,7 +235,7 @@ fn examine(surface: &dyn Surface, fan: &Fan, sector: Sector, size: f64) -> Extra
         growth if growth > GROWING => Behaviour::Growing,
         _ => Behaviour::Bounded,
     };
-    ExtraordinaryPoint { sector, rings, growth, behaviour }
+    ExtraordinaryPoint { sector, rings, range, growth, behaviour }
 }
 
 /// The mean size of some numbers, and their range as a share of it; no range where they are all below `least`.
@@ -241,23 +259,44 @@ struct Fan {
 }
 
 impl Fan {
-    /// The places at `(x, y)` in all its squares, `x` along the side that leaves the point.
+    /// True if a surface without extraordinary points of its own may look like this.
+    fn is_regular(&self) -> bool {
+        match self.kind {
+            SectorKind::Interior => self.corners.len() == 4,
+            SectorKind::Dart => false,
+            SectorKind::Crease | SectorKind::Border => self.corners.len() < 3,
+        }
+    }
+
+    /// The places at `(x, y)` in all its faces, `x` along the side that leaves the point.
     fn places<'a>(
         &'a self,
         surface: &'a dyn Surface,
         x: f64,
         y: f64,
     ) -> impl Iterator<Item = Location> + use<'a> {
-        self.corners.iter().map(move |&[square, corner]| {
-            let (s, t) = match corner {
-                0 => (x, y),
-                1 => (1.0 - y, x),
-                2 => (1.0 - x, 1.0 - y),
-                _ => (y, 1.0 - x),
-            };
-            surface.layout().squares()[square as usize].at(s, t)
-        })
+        let squares = surface.layout().squares();
+        self.corners.iter().map(move |&[square, corner]| inwards(&squares[square as usize], corner, [x, y]))
     }
+
+    /// The other corners of all its faces.
+    fn others<'a>(&'a self, surface: &'a dyn Surface) -> impl Iterator<Item = Location> + use<'a> {
+        let corners = [[1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        corners.into_iter().flat_map(|[x, y]| self.places(surface, x, y))
+    }
+}
+
+/// The place at `(x, y)` in the piece that a square was cut from, seen from a corner that they share.
+fn inwards(square: &Square, corner: u32, [x, y]: [f64; 2]) -> Location {
+    let ([u, v], [width, height]) = (square.corner.parameters(), square.piece);
+    let (right, top) = (u + square.size[0], v + square.size[1]);
+    let (u, v) = match corner {
+        0 => (u + x * width, v + y * height),
+        1 => (right - y * width, v + x * height),
+        2 => (right - x * width, top - y * height),
+        _ => (u + y * width, top - x * height),
+    };
+    square.corner.clamped(u, v)
 }
 
 /// The faces around every point where squares meet, cut apart at creases.

@@ -1,7 +1,7 @@
 //! `Layout`: squares of parameters that share whole sides.
 //!
-//! A quad beside a triangle shares one side with two corners of it. Where that happens all quads are cut in four, so that
-//! whoever walks over joints or lays grids on faces never meets half a side.
+//! A quad beside a triangle shares one side with two corners of it, and a face of a part one with two smaller faces. Where that
+//! happens the larger squares are cut, so that whoever walks over joints or lays grids on faces never meets half a side.
 
 use crate::patch::Location;
 
@@ -12,11 +12,18 @@ pub struct Square {
     pub corner: Location,
     /// The lengths of its sides in the parameters of the face.
     pub size: [f64; 2],
+    /// The same of the piece that it was cut from for the sake of smaller neighbours; its own where it was not cut.
+    pub piece: [f64; 2],
     /// Which of its sides lie on an edge of the cage, or on the border of a patch.
     pub edges: [bool; 4],
 }
 
 impl Square {
+    /// A square that is a piece of its own.
+    pub(super) fn whole(corner: Location, size: [f64; 2], edges: [bool; 4]) -> Square {
+        Square { corner, size, piece: size, edges }
+    }
+
     /// The place of `(s, t)`, both in `[0, 1]`.
     #[inline]
     pub fn at(&self, s: f64, t: f64) -> Location {

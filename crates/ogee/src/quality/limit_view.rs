@@ -61,18 +61,16 @@ fn layout(level: &Level, table: &PatchTable) -> Layout {
         };
         match (size, cut) {
             (4, false) => {
-                squares.push(Square { corner: corner(None), size: [1.0; 2], edges: [true; 4] });
+                squares.push(Square::whole(corner(None), [1.0; 2], [true; 4]));
             }
             (4, true) => squares.extend((0..4).map(|k| {
                 let [u, v] = QUARTERS[k];
                 let edges = [0, 1, 2, 3].map(|side| side == k || side == (k + 3) % 4);
-                Square { corner: corner(None).clamped(u, v), size: [0.5; 2], edges }
+                Square::whole(corner(None).clamped(u, v), [0.5; 2], edges)
             })),
-            _ => squares.extend((0..size).map(|k| Square {
-                corner: corner(Some(k)),
-                size: [1.0; 2],
-                edges: [true, false, false, true],
-            })),
+            _ => squares.extend(
+                (0..size).map(|k| Square::whole(corner(Some(k)), [1.0; 2], [true, false, false, true])),
+            ),
         }
     }
     let sides = Sides { topology, firsts, cut };

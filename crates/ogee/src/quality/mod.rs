@@ -4,6 +4,7 @@
 //! parameters that share whole sides.
 
 mod continuity;
+mod curvature_range;
 mod extraordinary;
 mod layout;
 mod limit_view;
@@ -11,9 +12,11 @@ mod lines;
 mod patch_view;
 mod reflection;
 mod report;
+mod sides;
 mod statistics;
 
 pub use continuity::{Continuity, FRACTIONS, JointPlace, Joints, Metric};
+pub use curvature_range::CurvatureRange;
 pub use extraordinary::{
     Behaviour, Cause, Extraordinary, ExtraordinaryPoint, LEVELS, PointWithoutPlane, Ring, Sector, SectorKind,
 };

@@ -1,14 +1,14 @@
 //! NURBS patches, as instruments look at them.
 
-use std::collections::HashMap;
-
-use super::{Address, Joint, Layout, Side, Square, Surface};
+use super::sides::matched;
+use super::{Address, Layout, Square, Surface};
 use crate::limit::{Derivatives, Flags, Samples};
 use crate::math::{Grid, SurfaceJet, Vec3, par};
 use crate::nurbs::{FaceAddress, NurbsSurface};
 use crate::patch::Location;
 
-/// Patches with the layout of their squares: a square for each piece of the cage that a patch covers.
+/// Patches with the layout of their squares: a square for each piece of the cage that a patch covers, cut where a side of it lies
+/// beside several smaller ones.
 #[derive(Clone, Debug)]
 pub struct PatchView {
     patches: Vec<(NurbsSurface, Grid<FaceAddress>)>,
@@ -34,6 +34,9 @@ impl PatchView {
     /// Lays patches side by side: sides whose ends and middles agree, to 1e-6 of the size of all, are joined. Each patch
     /// comes with the pieces of the cage that it covers, `(i, j)`, `i` along `u`, all of the same size in its parameters.
     ///
+    /// Where half a side, or a smaller part of it by halving, is a side of another piece, the larger one is cut in two across that
+    /// side, and so is whatever lies beside the new pieces, until squares share whole sides.
+    ///
     /// # Errors
     /// If there is nothing to look at.
     pub fn new(patches: Vec<(NurbsSurface, Grid<FaceAddress>)>) -> Result<PatchView, PatchViewError> {
@@ -50,11 +53,11 @@ impl PatchView {
                 for j in 0..cells.cols() {
                     let (u, v) = (i as f64 * size[0], j as f64 * size[1]);
                     let edges = [j == 0, i + 1 == cells.rows(), j + 1 == cells.cols(), i == 0];
-                    squares.push(Square { corner: Location { root: number, u, v }, size, edges });
+                    squares.push(Square::whole(Location { root: number, u, v }, size, edges));
                 }
             }
         }
-        let joints = joints(&patches, &squares);
+        let (squares, joints) = matched(squares, |at| jet(&patches[at.root as usize].0, at).position);
         Ok(PatchView { patches, layout: Layout::new(squares, joints) })
     }
 
@@ -103,7 +106,8 @@ impl Surface for PatchView {
             (cell, x - cell as f64)
         };
         let ((i, u), (j, v)) = (within(at.u, cells.rows()), within(at.v, cells.cols()));
-        let FaceAddress { face, corner, .. } = cells[(i, j)];
+        let FaceAddress { face, corner, quarters } = cells[(i, j)];
+        let [u, v] = quarters.outwards([u, v]);
         Address { face, corner, u, v }
     }
 }
@@ -121,52 +125,4 @@ fn jet(surface: &NurbsSurface, at: Location) -> SurfaceJet {
         duv: (a * b) * jet.duv,
         dvv: (b * b) * jet.dvv,
     }
-}
-
-/// Sides are the same curve if their ends and middles agree to this share of the size of all.
-const SAME: f64 = 1e-6;
-
-fn joints(patches: &[(NurbsSurface, Grid<FaceAddress>)], squares: &[Square]) -> Vec<Joint> {
-    let point = |at: Location| jet(&patches[at.root as usize].0, at).position;
-    let sides: Vec<(Side, [Vec3; 3])> = (0..)
-        .zip(squares)
-        .flat_map(|(number, square)| {
-            (0..4).map(move |side| {
-                (Side { square: number, side }, [0.0, 0.5, 1.0].map(|x| point(square.on_side(side, x))))
-            })
-        })
-        .collect();
-    let (lower, upper) = sides.iter().fold((sides[0].1[1], sides[0].1[1]), |(lower, upper), (_, points)| {
-        (lower.min(points[1]), upper.max(points[1]))
-    });
-    let tolerance = (SAME * upper.distance(lower)).max(f64::MIN_POSITIVE);
-    // Middles fall into cells; a partner is in the same cell or in one beside it.
-    let cell = |p: Vec3| [p.x, p.y, p.z].map(|x| (x / tolerance / 4.0).round() as i64);
-    let mut cells: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
-    for (number, (_, points)) in (0..).zip(&sides) {
-        cells.entry(cell(points[1])).or_default().push(number);
-    }
-    let mut joined = vec![false; sides.len()];
-    let mut joints = Vec::new();
-    for (number, (side, [start, middle, end])) in sides.iter().enumerate() {
-        if joined[number] || start.distance(*end) + start.distance(*middle) <= tolerance {
-            continue;
-        }
-        let [x, y, z] = cell(*middle);
-        let around = (-1..=1).flat_map(|i| (-1..=1).flat_map(move |j| (-1..=1).map(move |k| [i, j, k])));
-        // Patches that are far from the origin for their size lie in the last cell.
-        let beside = |[i, j, k]: [i64; 3]| [x.saturating_add(i), y.saturating_add(j), z.saturating_add(k)];
-        let candidates = around.filter_map(|offset| cells.get(&beside(offset))).flatten();
-        let partner = candidates.copied().map(|other| other as usize).filter(|&other| {
-            let [a, b, c] = sides[other].1;
-            let gap = start.distance(c).max(middle.distance(b)).max(end.distance(a));
-            other > number && !joined[other] && gap <= tolerance
-        });
-        if let Some(partner) = partner.min() {
-            joined[number] = true;
-            joined[partner] = true;
-            joints.push(Joint { sides: [*side, sides[partner].0], is_sharp: false });
-        }
-    }
-    joints
 }

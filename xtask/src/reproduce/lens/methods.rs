@@ -164,7 +164,7 @@ fn limit_patches(level: &Level, points: &[Vec3], except: &[FaceId], depth: Depth
 }
 
 /// The patches of a piece, as far as they come from the next `steps` steps.
-fn collect(piece: &FacePiece, steps: usize, patches: &mut Vec<NurbsSurface>) {
+pub(in crate::reproduce) fn collect(piece: &FacePiece, steps: usize, patches: &mut Vec<NurbsSurface>) {
     let patch = |net: &PatchNet, origin: Vec3| from_cubic(|i, j| net[i + 4 * j] + origin);
     match piece {
         FacePiece::Leaf(net) => patches.push(patch(net, Vec3::ZERO)),

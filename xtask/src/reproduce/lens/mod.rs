@@ -4,10 +4,10 @@ mod bezier;
 mod bicubic;
 mod maps;
 mod measure;
-mod methods;
+pub(super) mod methods;
 mod nets;
 mod sections;
-mod sheet;
+pub(super) mod sheet;
 mod table;
 
 use std::fmt::Write as _;

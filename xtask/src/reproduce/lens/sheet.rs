@@ -10,7 +10,7 @@ use super::methods::{Depth, Method, treatment};
 use super::nets::Example;
 
 /// Pixels along the sides of a picture of one method.
-const TILE: u32 = 300;
+pub(in crate::reproduce) const TILE: u32 = 300;
 
 /// Samples along each side of a pixel.
 const SAMPLES: u32 = 3;
@@ -91,19 +91,19 @@ pub(super) fn sheet(example: &Example, sheet: Sheet) -> Result<Image> {
     if let (Sheet::MeanCurvature, Some(last)) = (sheet, tiles.last_mut()) {
         last.add_legend(&scene.style, look.curvature);
     }
-    Ok(tiled(&tiles))
+    Ok(tiled(&tiles, COLUMNS))
 }
 
-/// Pictures of one size in rows, with lines of paper between them.
-fn tiled(tiles: &[Image]) -> Image {
+/// Pictures of one size in rows of so many, with lines of paper between them.
+pub(in crate::reproduce) fn tiled(tiles: &[Image], across: usize) -> Image {
     const GAP: u32 = 4;
-    let rows = tiles.len().div_ceil(COLUMNS) as u32;
-    let columns = tiles.len().min(COLUMNS) as u32;
+    let rows = tiles.len().div_ceil(across) as u32;
+    let columns = tiles.len().min(across) as u32;
     let size = [columns * (TILE + GAP) - GAP, rows * (TILE + GAP) - GAP];
     let mut image = Image::filled(size, [255; 4]);
     for (number, tile) in tiles.iter().enumerate() {
-        let left = (number % COLUMNS) * (TILE + GAP) as usize;
-        let top = (number / COLUMNS) * (TILE + GAP) as usize;
+        let left = (number % across) * (TILE + GAP) as usize;
+        let top = (number / across) * (TILE + GAP) as usize;
         for (y, row) in tile.pixels.chunks_exact(4 * TILE as usize).enumerate() {
             let first = 4 * ((top + y) * size[0] as usize + left);
             image.pixels[first..first + row.len()].copy_from_slice(row);
