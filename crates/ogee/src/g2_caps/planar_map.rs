@@ -45,7 +45,7 @@ pub(super) fn of_class(class: CapClass) -> Option<Vec<Vec<[f64; 2]>>> {
 /// The coefficients of a sector from the points of the columns.
 fn image(points: &[c64], weight: impl Fn(usize, usize) -> c64) -> Vec<[f64; 2]> {
     let sum = |row| points.iter().enumerate().map(|(column, point)| weight(row, column) * point).sum::<c64>();
-    (0..SECTOR).map(|row| sum(row)).map(|point| [point.re, point.im]).collect()
+    (0..SECTOR).map(sum).map(|point| [point.re, point.im]).collect()
 }
 
 /// The natural configuration, a point for each column of a fan.
