@@ -141,6 +141,9 @@ mod doctests {
     #[doc = include_str!("../../../docs/methods/pccm.md")]
     struct Pccm;
 
+    #[doc = include_str!("../../../docs/methods/g2_caps.md")]
+    struct G2Caps;
+
     #[doc = include_str!("../../../docs/methods/packing.md")]
     struct Packing;
 }

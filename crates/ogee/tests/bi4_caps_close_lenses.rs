@@ -19,7 +19,7 @@ fn lens() -> (ControlMesh, CapSite, [Vec3; 25]) {
     mesh.points[..25].copy_from_slice(&net);
     let level = Level::new(&mesh).unwrap();
     let around = regular_net(&level, VertexId(0)).unwrap();
-    let site = CapSite::new(&around, level.topology(), |face| FaceAddress::whole(face));
+    let site = CapSite::new(&around, level.topology(), FaceAddress::whole);
     (mesh, site, net)
 }
 

@@ -45,9 +45,9 @@ impl Fan {
         let topology = adaptive.levels()[self.level].level.topology();
         self.visible(adaptive).map(|(h, surface)| {
             let face = topology.face(h);
-            let placed = Placed { quad: face.0, turn: h.0 - topology.first(face).0 };
-            let chart = Chart { quads: Grid::from_fn(1, 1, |_, _| placed) };
-            PlacedChart { level: self.level, chart, surface: surface.clone() }
+            // A face of its own has its parameters from its own first corner, like all others.
+            let chart = Chart { quads: Grid::from_fn(1, 1, |_, _| Placed { quad: face.0, turn: 0 }) };
+            PlacedChart { level: self.level, chart, surface: surface.turned(h.0 - topology.first(face).0) }
         })
     }
 

@@ -1,4 +1,5 @@
-//! A cap's coefficients from its points (sections 5, 8 and 10 of the method's page).
+//! A cap's coefficients from its points (Outer border, Weights, and Boundaries, creases, corners, darts on the
+//! method's page).
 //!
 //! Weights give the inner coefficients. The outer three layers continue the bicubic surface around the cap with two derivatives,
 //! and depend on nothing but the points next to them; so do the boundary curves of open fans, which are Catmull and Clark's.

@@ -51,7 +51,8 @@ impl CapClass {
     }
 
     /// For each column the one whose point takes its place when the fan is seen in a mirror: around an interior vertex the one
-    /// through the middle of sector 0, else the one that exchanges the first sector and the last (section 8.2 of the page).
+    /// through the middle of sector 0, else the one that exchanges the first sector and the last (Points, sectors, columns on
+    /// the page).
     pub(super) fn mirrored_columns(self) -> Vec<usize> {
         let (edges, sectors) = (self.edges(), self.sectors());
         let mut mirrored = vec![0; self.columns()];

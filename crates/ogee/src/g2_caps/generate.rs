@@ -4,23 +4,17 @@ use faer::Mat;
 
 use super::fan::{Fan, SECTOR};
 use super::solve::solve;
-use super::{COEFFICIENTS, CapClass, INNER, Weights, energy, planar_map};
+use super::{COEFFICIENTS, CapClass, INNER, Weights, energy, is_solvable, planar_map};
 use crate::math::{Grid, par};
-
-/// Most faces around an interior vertex. Beyond, sectors are so thin that the energy loses its digits.
-const MOST_INTERIOR: usize = 64;
-
-/// Most faces of the other classes, for which all sectors are solved for at once, in cubic time.
-const MOST_OPEN: usize = 12;
 
 /// The weights of a class, as `docs/methods/g2_caps.md` derives them: of all coefficients that fulfil the conditions those with the
 /// least third derivatives in the plane of [`planar_map`](super::planar_map()).
 ///
-/// `None` for classes that have no cap: an interior vertex with fewer than three faces or with four, which is regular; a smooth
-/// boundary or a dart with fewer than three faces and a corner with fewer than two; and where there are more faces than the construction
-/// has been worked out for, 64 around an interior vertex, 12 elsewhere.
+/// `None` if [`is_solvable`] says no. Nothing is kept: [`weights`](super::weights()) is what one usually wants.
 pub fn generate(class: CapClass) -> Option<Weights> {
-    let class = admissible(class)?;
+    if !is_solvable(class) {
+        return None;
+    }
     let angle = class.sector_angle();
     let energies =
         planar_map::of_class(class)?.iter().map(|map| energy::planar(map)).collect::<Option<Vec<_>>>()?;
@@ -32,17 +26,6 @@ pub fn generate(class: CapClass) -> Option<Weights> {
         open(class, &solve(&Fan::whole(class).system(), &energies)?.coefficients)
     };
     Some(cleaned(class, &sectors))
-}
-
-/// The class, if there can be a cap.
-pub(super) fn admissible(class: CapClass) -> Option<CapClass> {
-    let faces = class.sectors();
-    let has_cap = match class {
-        CapClass::Interior { .. } => (3..=MOST_INTERIOR).contains(&faces) && faces != 4,
-        CapClass::Boundary { .. } | CapClass::Dart { .. } => (3..=MOST_OPEN).contains(&faces),
-        CapClass::Corner { .. } => (2..=MOST_OPEN).contains(&faces),
-    };
-    has_cap.then_some(class)
 }
 
 /// The number among all coefficients of a sector of an inner one.

@@ -4,9 +4,8 @@ use faer::c64;
 
 use super::energy::parametric;
 use super::fan::{Fan, SECTOR};
-use super::generate::admissible;
 use super::solve::solve;
-use super::{COEFFICIENTS, CapClass};
+use super::{COEFFICIENTS, CapClass, is_solvable};
 use crate::math::Grid;
 
 /// The planar map of a class: the coefficients `(x, y)` of its cap over the natural configuration, the subdominant eigenvector of
@@ -16,9 +15,12 @@ use crate::math::Grid;
 /// same, turned. Of the coefficients that the conditions leave open those are taken that make the squares of the fourth derivatives by the
 /// parameters least (`docs/methods/g2_caps.md`, Energy). `None` for classes that have no cap.
 pub fn planar_map(class: CapClass) -> Option<Vec<Grid<[f64; 2]>>> {
+    if !is_solvable(class) {
+        return None;
+    }
     let grid =
         |map: Vec<[f64; 2]>| Grid::from_fn(COEFFICIENTS, COEFFICIENTS, |i, j| map[COEFFICIENTS * i + j]);
-    Some(of_class(admissible(class)?)?.into_iter().map(grid).collect())
+    Some(of_class(class)?.into_iter().map(grid).collect())
 }
 
 /// The coefficients of the planar map, row by row.

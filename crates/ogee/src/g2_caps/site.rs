@@ -1,4 +1,4 @@
-//! Where a cap may sit, and its points (sections 9.1 and 10 of the method's page).
+//! Where a cap may sit, and its points (Whole meshes on the method's page).
 //!
 //! A cap takes the place of the faces of one sector around an irregular vertex. Its border continues the bicubic surface
 //! around it, so that all other corners of those faces have to be regular.

@@ -102,17 +102,13 @@ pub fn weights(class: CapClass) -> Option<Arc<Weights>> {
         return Some(found.clone());
     }
     // Not under the lock: others need not wait, and who comes second finds what the first has made.
-    let made = Arc::new(shipped(class).or_else(|| generated(class))?);
+    let made = Arc::new(shipped(class).or_else(|| generate(class))?);
     Some(known().get_or_insert_default().entry(class).or_insert(made).clone())
 }
 
 fn shipped(class: CapClass) -> Option<Weights> {
     let (_, table) = SHIPPED.iter().find(|(shipped, _)| *shipped == class)?;
     decode(class, table)
-}
-
-fn generated(class: CapClass) -> Option<Weights> {
-    is_solvable(class).then(|| generate(class)).flatten()
 }
 
 /// How many sectors a table has: around an interior vertex one, else every one that is not the mirror image of an earlier one.

@@ -1,4 +1,4 @@
-//! `Tiling`: which face of which level becomes what (section 9 of the method's page).
+//! `Tiling`: which face of which level becomes what (Whole meshes on the method's page).
 //!
 //! The regular surface is the same on every level, so every irregular vertex takes the coarsest on which it may have a
 //! cap, and the rest is refined no more than it needs. Faces of different levels meet in T vertices.

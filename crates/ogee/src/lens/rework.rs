@@ -36,7 +36,7 @@ impl Rework {
     pub(super) fn new(mesh: &ControlMesh, edges: &[[u32; 2]]) -> Rework {
         let faces = (0..mesh.faces.len() as u32).map(FaceId);
         Rework {
-            addresses: faces.clone().map(|face| FaceAddress::whole(face)).collect(),
+            addresses: faces.clone().map(FaceAddress::whole).collect(),
             pieces: faces.map(|face| Some(Piece::whole(face))).collect(),
             caps: Vec::new(),
             edges: edges.iter().map(|&edge| vec![edge]).collect(),

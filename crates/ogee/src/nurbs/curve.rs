@@ -32,12 +32,7 @@ impl NurbsCurve {
 
     /// The same curve the other way, over the same domain.
     pub fn reversed(&self) -> NurbsCurve {
-        let [start, end] = self.knots.domain();
-        let knots = self.knots.knots().iter().rev().map(|&knot| start + (end - knot)).collect();
-        NurbsCurve {
-            knots: KnotVector::new(self.knots.degree(), knots),
-            points: self.points.iter().rev().copied().collect(),
-        }
+        NurbsCurve { knots: self.knots.reversed(), points: self.points.iter().rev().copied().collect() }
     }
 
     /// The piece between two parameters, exactly, with its own clamped knots; the parameter stays what it was.

@@ -56,6 +56,15 @@ impl KnotVector {
         [self.knots[0], self.knots[self.knots.len() - 1]]
     }
 
+    /// The knots of the same functions in the other direction, over the same domain.
+    pub(crate) fn reversed(&self) -> KnotVector {
+        let [start, end] = self.domain();
+        KnotVector {
+            degree: self.degree,
+            knots: self.knots.iter().rev().map(|&knot| start + (end - knot)).collect(),
+        }
+    }
+
     /// Distinct knots with their multiplicities, as STEP wants them.
     pub fn multiplicities(&self) -> Vec<(f64, usize)> {
         let mut out: Vec<(f64, usize)> = Vec::new();

@@ -91,6 +91,16 @@ impl NurbsSurface {
     pub fn transposed(&self) -> NurbsSurface {
         NurbsSurface { u: self.v.clone(), v: self.u.clone(), net: self.net.transposed() }
     }
+
+    /// The same surface with its parameters turned by so many quarters, counter-clockwise: what was at `(0, 0)` is at corner
+    /// `quarters`, corners counted counter-clockwise.
+    pub fn turned(&self, quarters: u32) -> NurbsSurface {
+        (0..quarters % 4).fold(self.clone(), |surface, _| {
+            let (rows, columns) = (surface.net.cols(), surface.net.rows());
+            let net = Grid::from_fn(rows, columns, |i, j| surface.net[(j, rows - 1 - i)]);
+            NurbsSurface { u: surface.v.reversed(), v: surface.u, net }
+        })
+    }
 }
 
 #[cfg(test)]
@@ -105,6 +115,25 @@ mod tests {
             Vec3::new(x + 0.1 * y * y, y - 0.2 * x, (x * 1.3).sin() + (y * 0.7).cos())
         });
         NurbsSurface { u, v, net }
+    }
+
+    #[test]
+    fn turned_surfaces_are_the_same() {
+        let surface = surface();
+        for quarters in 0..4 {
+            let turned = surface.turned(quarters);
+            for (u, v) in [(0.0, 0.0), (0.3, 0.9), (1.7, 0.2)] {
+                let (mut x, mut y, mut width, mut height) = (u, v, 2.0, 1.0);
+                for _ in 0..quarters {
+                    (x, y) = (height - y, x);
+                    (width, height) = (height, width);
+                }
+                let (own, there) = (surface.jet(u, v), turned.jet(x, y));
+                assert!(own.position.distance(there.position) < 1e-14, "{quarters}");
+                let (normal, other) = (own.du.cross(own.dv), there.du.cross(there.dv));
+                assert!(normal.distance(other) < 1e-12 * normal.length() + 1e-12, "{quarters}");
+            }
+        }
     }
 
     #[test]
