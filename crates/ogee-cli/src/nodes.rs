@@ -32,6 +32,7 @@ impl NodeReport {
             degree,
             level,
             deviation,
+            regularity,
         }
     }
 

@@ -83,8 +83,7 @@ fn weights_made_again_are_the_shipped_ones() {
 fn planar_maps_match() {
     for (name, document) in documents("g2_caps/planar-maps") {
         let map = planar_map(interior(index(&document["n"]))).unwrap().remove(0);
-        let golden =
-            list(&document["map"]).iter().flat_map(list).map(|p| [number(&p[0]), number(&p[1])]);
+        let golden = list(&document["map"]).iter().flat_map(list).map(|p| [number(&p[0]), number(&p[1])]);
         let difference = |([x, y], [a, b]): (&[f64; 2], [f64; 2])| (x - a).abs().max((y - b).abs());
         let worst = map.cells().iter().zip(golden).map(difference).fold(0.0, f64::max);
         println!("{name}: {worst:e}");

@@ -265,6 +265,25 @@ fn what_has_no_cap_is_named() {
 }
 
 #[test]
+fn folded_caps_are_named() {
+    let mut mesh = trapezohedron(6);
+    // A pole pushed through to the other side.
+    mesh.points[0].z = -3.0;
+    let report = convert(&mesh).report;
+    let folded: Vec<_> = report.notes.iter().filter(|note| note.code == "folded_cap").collect();
+    assert!(!folded.is_empty(), "{:?}", report.nodes);
+    let sound = convert(&trapezohedron(6)).report;
+    assert!(sound.notes.is_empty());
+    assert!(sound.nodes.iter().all(|node| node.regularity.unwrap() > 0.05), "{:?}", sound.nodes);
+}
+
+#[test]
+fn what_does_not_fit_is_refused() {
+    let refused = to_part(&trapezohedron(6), &Options { memory: Some(100_000), ..g2() });
+    assert!(matches!(refused, Err(ConvertError::Memory { patches: 48, .. })), "{refused:?}");
+}
+
+#[test]
 fn numbers_change_nothing() {
     let cage = voxels(&[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 0], [1, 0, 1], [0, 1, 1]]);
     let count = cage.points.len();

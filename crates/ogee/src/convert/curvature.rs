@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 
 use super::cap_deviation::{self, Fan};
 use super::part::{LevelFaces, Node, NodeKind};
+use super::regularity::Regularity;
 use super::source::{Source, told};
 use super::{ConvertError, DEEPEST_LEVEL, Options, Packing, PlacedChart};
 use crate::g2_caps::{self, PlacedCap, Tiling, Uncapped};
@@ -15,6 +16,9 @@ use crate::mesh::{FaceId, HalfedgeId, Note, VertexId};
 use crate::nurbs::{KnotVector, NurbsSurface};
 use crate::patch::Adaptive;
 use crate::pccm::{self, Cells, Chart, CornerClass, Layer, Placed, inserted, pack, unpacked, view};
+
+/// Length of `du x dv`, relative to the greatest of a cap, below which a cap counts as folded.
+const NEARLY_SINGULAR: f64 = 1e-3;
 
 /// A cage in bicubic faces and caps.
 pub(super) struct Curvature<'a> {
@@ -36,8 +40,8 @@ impl<'a> Curvature<'a> {
         // By the number that a vertex keeps on all levels.
         let mut levels: BTreeMap<u32, u32> = BTreeMap::new();
         loop {
-            let converted =
-                Curvature::on_levels(source, |vertex| levels.get(&vertex).copied().unwrap_or(least))?;
+            let level_of = |vertex: u32| levels.get(&vertex).copied().unwrap_or(least);
+            let converted = Curvature::on_levels(source, level_of, options.memory)?;
             let Some(wanted) = options.max_deviation else { return Ok(converted) };
             let reached = converted.deviation();
             if reached < wanted {
@@ -55,8 +59,13 @@ impl<'a> Curvature<'a> {
         }
     }
 
-    fn on_levels(source: &'a Source, level_of: impl Fn(u32) -> u32) -> Result<Curvature<'a>, ConvertError> {
+    fn on_levels(
+        source: &'a Source,
+        level_of: impl Fn(u32) -> u32,
+        memory: Option<u64>,
+    ) -> Result<Curvature<'a>, ConvertError> {
         let tiling = Tiling::new(&source.adaptive, level_of)?;
+        check_memory(&tiling, memory)?;
         let mut fans = par::map(tiling.caps.len(), |cap| capped(&tiling.adaptive, &tiling.caps[cap]));
         let mut broken = Vec::new();
         let mut notes = Vec::new();
@@ -73,13 +82,21 @@ impl<'a> Curvature<'a> {
         let deviations = cap_deviation::of_fans(&tiling.adaptive, &fans);
         let kinds = tiling.caps.iter().map(|cap| NodeKind::Cap(cap.site.class));
         let kinds = kinds.chain(std::iter::repeat(NodeKind::Smoothed));
-        let nodes = fans.iter().zip(kinds).zip(deviations).map(|((fan, kind), deviation)| Node {
-            place: source.place(tiling.adaptive.origin(fan.number)),
-            kind,
-            level: fan.level as u32,
-            deviation,
-        });
-        Ok(Curvature { source, nodes: nodes.collect(), fans, broken, notes, tiling })
+        let regularity = par::map(tiling.caps.len(), |cap| Regularity::of(&fans[cap]));
+        let mut nodes = Vec::with_capacity(fans.len());
+        for (number, ((fan, kind), deviation)) in fans.iter().zip(kinds).zip(deviations).enumerate() {
+            let place = source.place(tiling.adaptive.origin(fan.number));
+            let regularity = regularity.get(number);
+            if regularity.is_some_and(|found| found.folded || found.least < NEARLY_SINGULAR) {
+                let message = format!(
+                    "the cap around {place} folds or nearly does, as the cage does there: its normals agree, but solids with it may be refused; straighten the cage"
+                );
+                notes.push(Note { code: "folded_cap", message, place: Some(place) });
+            }
+            let (level, regularity) = (fan.level as u32, regularity.map(|found| found.least));
+            nodes.push(Node { place, kind, level, deviation, regularity });
+        }
+        Ok(Curvature { source, nodes, fans, broken, notes, tiling })
     }
 
     /// How many faces are of which level.
@@ -150,6 +167,27 @@ impl<'a> Curvature<'a> {
             PlacedChart { level: number, chart: Chart { quads: chart.quads.map(own) }, surface }
         };
         charts.into_iter().zip(surfaces).map(placed).collect()
+    }
+}
+
+/// A sector of a cap: its coefficients in some copies, and the refined mesh that it is measured against.
+const BYTES_PER_SECTOR: u64 = 50_000;
+
+/// A regular face, in the same copies.
+const BYTES_PER_REGULAR: u64 = 4_000;
+
+/// Asks whether all that is to be made of a tiling fits.
+fn check_memory(tiling: &Tiling, allowed: Option<u64>) -> Result<(), ConvertError> {
+    let capped = tiling.caps.iter().map(|cap| cap.site.halfedges.len());
+    let smoothed = tiling.uncapped.iter().map(|sector| sector.halfedges.len());
+    let sectors = capped.chain(smoothed).sum::<usize>() as u64;
+    let regular = tiling.regular.iter().map(Vec::len).sum::<usize>() as u64;
+    let bytes = sectors * BYTES_PER_SECTOR + regular * BYTES_PER_REGULAR;
+    match allowed {
+        Some(allowed) if bytes > allowed => {
+            Err(ConvertError::Memory { patches: sectors + regular, bytes, allowed })
+        }
+        _ => Ok(()),
     }
 }
 

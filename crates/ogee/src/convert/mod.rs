@@ -12,6 +12,7 @@ mod measure;
 mod outline;
 mod part;
 mod quintic;
+mod regularity;
 mod sew;
 mod source;
 
@@ -129,6 +130,18 @@ pub enum ConvertError {
     /// It does not fit.
     #[error(transparent)]
     TooDeep(#[from] TooDeep),
+    /// Curvature-continuous patches would not fit.
+    #[error(
+        "{patches} patches take some {bytes} bytes, more than the {allowed} that may be used; ask for a smaller level or allow a larger deviation"
+    )]
+    Memory {
+        /// How many there would be.
+        patches: u64,
+        /// About what they take.
+        bytes: u64,
+        /// What is allowed.
+        allowed: u64,
+    },
     /// All faces are holes, or touch a boundary that is left out.
     #[error("no face of the cage is part of the surface")]
     NoSurface,
@@ -171,6 +184,7 @@ impl ConvertError {
             ConvertError::Meeting { .. } => "meeting",
             ConvertError::Seam { .. } => "seam",
             ConvertError::TooDeep(_) => "too_deep",
+            ConvertError::Memory { .. } => "too_deep",
             ConvertError::NoSurface => "no_surface",
             ConvertError::LevelTooHigh { .. } => "level_too_high",
             ConvertError::Deviation { .. } => "deviation",

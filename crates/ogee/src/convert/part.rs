@@ -86,6 +86,8 @@ pub struct Node {
     pub level: u32,
     /// Largest distance of sampled points of the limit surface there.
     pub deviation: f64,
+    /// Of a cap the least length of `du x dv`, relative to the greatest: small where the cage is nearly folded.
+    pub regularity: Option<f64>,
 }
 
 /// What is around an irregular vertex.
