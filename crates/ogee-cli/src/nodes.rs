@@ -16,6 +16,8 @@ pub(crate) struct NodeReport {
     degree: usize,
     level: u32,
     deviation: f64,
+    /// Of a cap: the least length of `du x dv`, relative to the greatest.
+    regularity: Option<f64>,
 }
 
 impl NodeReport {
@@ -24,7 +26,7 @@ impl NodeReport {
             NodeKind::Cap(class) => (kind(class), Some(class.sectors()), g2_caps::DEGREE),
             NodeKind::Smoothed => ("pccm", None, 3),
         };
-        let Node { level, deviation, .. } = *node;
+        let Node { level, deviation, regularity, .. } = *node;
         NodeReport {
             place: Where { place: Some(node.place), ..Where::default() },
             kind,
