@@ -321,7 +321,12 @@ impl PartReport {
             table.row("bounding box", format!("({low}) to ({high})"));
             table.row("edges", format!("{} smooth, {} sharp", report.smooth_edges, report.sharp_edges));
             table.row("vertices", report.vertices.to_string());
-            table.row("curvature jump", figure(report.max_curvature_jump));
+            if report.cap_degree.is_none() {
+                table.row(
+                    "curvature jump",
+                    format!("{} at most, times the size", figure(report.max_curvature_jump)),
+                );
+            }
         }
     }
 }
