@@ -2,7 +2,9 @@
 
 use anyhow::Result;
 
+use super::cages::cages;
 use super::fan::Fan;
+use super::solid_table::part;
 use super::surface::{Method, with_surface};
 use crate::bench::report::Table;
 
@@ -12,6 +14,38 @@ const FIRST: [(usize, [f64; 4]); 3] = [
     (5, [3.9e-3, 1.4e-3, 4.6e-4, 1.6e-4]),
     (8, [1.8e-2, 8.9e-3, 4.5e-3, 2.2e-3]),
 ];
+
+/// Distances of whole parts first, by the diagonal of the cage. The shapes of the plate's holes and of its first one may differ.
+const FIRST_OF_SOLIDS: [(&str, f64); 9] = [
+    ("cube", 2.9e-3),
+    ("trapezohedron 5", 1.7e-3),
+    ("trapezohedron 6", 3.0e-3),
+    ("trapezohedron 7", 4.6e-3),
+    ("trapezohedron 8", 6.4e-3),
+    ("trapezohedron 10", 1.0e-2),
+    ("trapezohedron 12", 1.3e-2),
+    ("corner of 7 cells", 1.5e-2),
+    ("plate with two holes", 8e-4),
+];
+
+/// A row for each closed cage.
+pub(super) fn solids() -> Result<Table> {
+    let mut table = Table::new(&["cage", "measured", "first", "apart", "PCCM"]);
+    for cage in cages() {
+        let Some((_, first)) = FIRST_OF_SOLIDS.iter().find(|(name, _)| *name == cage.name) else { continue };
+        let caps = part(&cage.mesh, ogee::convert::Method::G2)?.report.max_deviation_relative;
+        let pccm = part(&cage.mesh, ogee::convert::Method::Pccm)?.report.max_deviation_relative;
+        let apart = 100.0 * (caps / first - 1.0).abs();
+        table.row(&[
+            cage.name.clone(),
+            format!("{caps:.2e}"),
+            format!("{first:.1e}"),
+            format!("{apart:.0} %"),
+            format!("{pccm:.2e}"),
+        ]);
+    }
+    Ok(table)
+}
 
 /// On the saddle of the example, whose edges at the vertex are of length one.
 fn distance(valence: usize, level: u32) -> Result<f64> {

@@ -76,6 +76,8 @@ pub(crate) fn write(root: &Path) -> Result<Vec<String>> {
     }
     page.text += DISTANCE;
     writeln!(page.text, "{}", distance_table::table()?)?;
+    page.text += DISTANCE_OF_SOLIDS;
+    writeln!(page.text, "{}", distance_table::solids()?)?;
     let path = root.join("docs/reproduce/g2-caps.md");
     fs::write(&path, page.text.trim_end().to_owned() + "\n")?;
     page.log.push(path.display().to_string());
@@ -122,6 +124,11 @@ const DISTANCE: &str = "\
 ## Distance from the limit
 
 The largest distance of a cap from the limit surface on the saddle 0.3 (x^2 - y^2), edges at the vertex of length one, by level:
+
+";
+
+const DISTANCE_OF_SOLIDS: &str = "\
+Of the closed cages above, as a share of the diagonal; most caps are of level 1, the corner has one of level 0:
 
 ";
 

@@ -31,7 +31,7 @@ const FIRST: [(usize, usize, f64, f64); 13] = [
 #[cfg(test)]
 const ROUNDING: f64 = 20.0;
 
-fn part(mesh: &ogee::ControlMesh, method: Method) -> Result<Part> {
+pub(super) fn part(mesh: &ogee::ControlMesh, method: Method) -> Result<Part> {
     Ok(to_part(mesh, &Options { method, packing: Packing::Unpacked, ..Options::default() })?)
 }
 
