@@ -53,7 +53,7 @@ pub enum Obstacle {
         at: VertexId,
     },
     /// Curves meet at the vertex, or at a corner of a face next to it.
-    #[error("vertex {vertex} has no G2 cap on this level: curves meet at vertex {centre}")]
+    #[error("vertex {vertex} has no G2 cap on this level: at vertex {centre} curves meet")]
     Meeting {
         /// The vertex.
         vertex: VertexId,
@@ -192,7 +192,8 @@ pub fn site(
     if !halfedges.iter().any(|&h| level.is_visible(topology.face(h))) {
         return Ok(None);
     }
-    is_settled(level, vertex, vertex, &halfedges)?;
+    has_faded(level, vertex, vertex)?;
+    is_off_meetings(level, vertex, &halfedges)?;
     let faces = sector.faces;
     let class = match kind(level, vertex, sector) {
         Kind::Regular => return Ok(None),
@@ -227,18 +228,25 @@ pub fn site(
     Ok(Some(Site { class, halfedges }))
 }
 
-/// No finite sharpness at a vertex, and no meeting of curves on the faces of one of its sectors.
-fn is_settled(level: &Level, vertex: VertexId, at: VertexId, faces: &[HalfedgeId]) -> Result<(), Obstacle> {
+/// No finite sharpness at a vertex.
+fn has_faded(level: &Level, vertex: VertexId, at: VertexId) -> Result<(), Obstacle> {
     let topology = level.topology();
     let is_finite = |sharpness: f64| sharpness > 0.0 && sharpness.is_finite();
     // An edge that ends a boundary fan has no halfedge in the ring, but is infinitely sharp.
     let mut sharpness =
         topology.ring(at).map(|h| level.edge_sharpness(h)).chain([level.vertex_sharpness(at)]);
-    if sharpness.any(is_finite) {
-        return Err(Obstacle::SemiSharp { vertex, at });
-    }
-    match faces.iter().find_map(|&h| level.slice(topology.face(h))) {
-        Some(slice) => Err(Obstacle::Meeting { vertex, centre: topology.origin(slice.halfedge) }),
+    if sharpness.any(is_finite) { Err(Obstacle::SemiSharp { vertex, at }) } else { Ok(()) }
+}
+
+/// No meeting of curves on some faces. One at the vertex itself is named only if there is no other.
+fn is_off_meetings(level: &Level, vertex: VertexId, faces: &[HalfedgeId]) -> Result<(), Obstacle> {
+    let topology = level.topology();
+    let centres = faces
+        .iter()
+        .filter_map(|&h| level.slice(topology.face(h)))
+        .map(|slice| topology.origin(slice.halfedge));
+    match centres.min_by_key(|&centre| centre == vertex) {
+        Some(centre) => Err(Obstacle::Meeting { vertex, centre }),
         None => Ok(()),
     }
 }
@@ -252,17 +260,19 @@ fn are_quads(level: &Level, vertex: VertexId, halfedges: &[HalfedgeId]) -> Resul
     }
 }
 
-/// The surface around a face's corner, given by the halfedge that leaves it, is bicubic.
+/// The surface around a face's corner, given by the halfedge that leaves it, is bicubic. That curves meet at the vertex is the
+/// answer only if nothing else is in the way.
 pub(super) fn is_regular(level: &Level, vertex: VertexId, corner: HalfedgeId) -> Result<(), Obstacle> {
     let other = level.topology().origin(corner);
     for sector in level.sectors(other) {
         let halfedges: Vec<HalfedgeId> = level.sector_halfedges(sector).collect();
         if halfedges.contains(&corner) {
-            is_settled(level, vertex, other, &halfedges)?;
+            has_faded(level, vertex, other)?;
             are_quads(level, vertex, &halfedges)?;
             if kind(level, other, sector) != Kind::Regular {
                 return Err(Obstacle::NotSeparated { vertex, other });
             }
+            is_off_meetings(level, vertex, &halfedges)?;
         }
     }
     Ok(())

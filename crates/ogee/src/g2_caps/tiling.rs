@@ -6,7 +6,7 @@
 use super::site::{Obstacle, Site, is_regular, site};
 use super::weights;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
-use crate::patch::{Adaptive, AdaptiveLevel};
+use crate::patch::{Adaptive, AdaptiveLevel, with_ring};
 
 /// A cage cut into faces of several levels.
 #[derive(Clone, Debug)]
@@ -63,10 +63,20 @@ impl Tiling {
             if let Some(obstacle) = found.waiting.filter(|_| number >= DEEPEST) {
                 return Err(obstacle);
             }
-            todo = tiling.adaptive.refine(&rest);
+            let wanted = with_hidden(level, &rest);
+            let children = tiling.adaptive.refine(&wanted);
+            let next = tiling.adaptive.last();
+            todo = children.into_iter().filter(|&face| next.is_visible(face)).collect();
         }
         Ok(tiling)
     }
+}
+
+/// Faces with the hidden ones that touch them: what is seen of a cap depends on all faces around its vertex.
+fn with_hidden(level: &AdaptiveLevel, faces: &[FaceId]) -> Vec<FaceId> {
+    let mut all = with_ring(&level.level, faces);
+    all.retain(|face| !level.is_visible(*face) || faces.binary_search(face).is_ok());
+    all
 }
 
 /// What is found on a level.

@@ -11,7 +11,8 @@ use crate::rules::Level;
 pub(crate) struct Adaptive {
     /// The cage first.
     levels: Vec<AdaptiveLevel>,
-    /// For each vertex of all levels where it is on the cage.
+    /// For each vertex of all levels where it is on the cage. Those of the cage come first, then the middles of all its faces:
+    /// all that can be irregular has a number that does not depend on what is refined.
     origins: Vec<Place>,
 }
 
@@ -64,7 +65,9 @@ impl Adaptive {
             parents: Vec::new(),
             level,
         };
-        Adaptive { origins: first.vertices.iter().map(|&v| Place::Vertex(v)).collect(), levels: vec![first] }
+        let vertices = first.vertices.iter().map(|&v| Place::Vertex(v));
+        let middles = (0..first.visible.len() as u32).map(Place::Face);
+        Adaptive { origins: vertices.chain(middles).collect(), levels: vec![first] }
     }
 
     /// The levels so far.
@@ -108,10 +111,10 @@ impl Adaptive {
             Some(part) => part.vertices.iter().map(|v| parent.vertices[v.index()]).collect(),
             None => parent.vertices.clone(),
         };
-        let fresh = level.topology().vertex_count() - vertices.len();
-        let known = self.origins.len();
-        let origins = faces.iter().map(|&face| Place::Face(parent.addresses[face.index()].face.0));
-        let mut origins: Vec<Place> = origins.collect();
+        let mut origins: Vec<Place> = match number {
+            0 => Vec::new(),
+            _ => faces.iter().map(|&face| Place::Face(parent.addresses[face.index()].face.0)).collect(),
+        };
         origins.extend(own_topology.edge_halfedges().map(|h| {
             let end = |v: VertexId| self.origins[vertices[v.index()] as usize];
             match (end(own_topology.origin(h)), end(own_topology.target(h))) {
@@ -119,7 +122,11 @@ impl Adaptive {
                 (Place::Vertex(_), other) | (other, _) => other,
             }
         }));
-        vertices.extend((known..known + fresh).map(|v| v as u32));
+        if number == 0 {
+            vertices.extend(faces.iter().map(|face| topology.vertex_count() as u32 + face.0));
+        }
+        let known = self.origins.len() as u32;
+        vertices.extend((known..).take(origins.len()));
 
         let halfedges = || faces.iter().flat_map(|&face| topology.halfedges(face));
         let addresses = halfedges().map(|h| {
