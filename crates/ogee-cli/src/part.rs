@@ -25,13 +25,14 @@ use crate::system;
 /// The options of a conversion.
 #[derive(Debug, Args)]
 pub(crate) struct PartArguments {
-    /// The construction: pccm and pccm-first are bicubic, bi5 is biquintic; all are tangent-continuous
+    /// The construction: pccm and pccm-first are bicubic and bi5 is biquintic, all tangent-continuous; g2 is curvature-continuous,
+    /// with caps of degree 7 around irregular vertices and bicubic elsewhere
     #[arg(long, default_value = "pccm", value_parser = METHODS)]
     pub(crate) method: Method,
-    /// Raise the level until patches and limit surface differ by less than this, in the unit of the file
+    /// Raise the level, where it is needed, until patches and limit surface differ by less than this, in the unit of the file
     #[arg(long, value_name = "D", value_parser = length, allow_negative_numbers = true)]
     max_deviation: Option<f64>,
-    /// Steps of refinement before the conversion [default: the least that is right for the cage]
+    /// Steps of refinement before the conversion; of g2 before a cap [default: the least that is right, face by face]
     #[arg(short, long, value_name = "L")]
     level: Option<u32>,
     /// Join quads into large faces [default for STEP]
@@ -126,6 +127,7 @@ impl LevelReport {
         let split = match self.steps {
             0 => "of the cage".to_owned(),
             1 => "refined once".to_owned(),
+            2 => "refined twice".to_owned(),
             steps => format!("refined {steps} times"),
         };
         match self.level {
@@ -309,7 +311,7 @@ impl PartReport {
         let size = <[f64; 3]>::from(high - low).map(figure).join(" x ");
         table.row("size", format!("{size} {unit}"));
         table.row("largest angle", format!("{} deg over smooth edges", figure(report.max_normal_angle_deg)));
-        if report.cap_degree.is_some() {
+        if verbose || report.method == Method::G2.name() {
             let jump = figure(report.max_curvature_jump);
             table.row("curvature jump", format!("{jump} at most, times the size"));
         }
@@ -321,12 +323,6 @@ impl PartReport {
             table.row("bounding box", format!("({low}) to ({high})"));
             table.row("edges", format!("{} smooth, {} sharp", report.smooth_edges, report.sharp_edges));
             table.row("vertices", report.vertices.to_string());
-            if report.cap_degree.is_none() {
-                table.row(
-                    "curvature jump",
-                    format!("{} at most, times the size", figure(report.max_curvature_jump)),
-                );
-            }
         }
     }
 }

@@ -37,7 +37,7 @@ fn convert_reports_and_names() {
     let folder = Folder::with_cube();
     let fields = "method level cage_faces patches faces_written edges vertices solids shells closed unit volume area \
                   bbox max_normal_angle_deg max_gap max_deviation max_deviation_relative max_curvature_jump \
-                  smooth_edges sharp_edges seconds file_bytes notes";
+                  smooth_edges sharp_edges levels caps cap_degree nodes lenses seconds file_bytes peak_bytes notes";
     for (output, options) in [
         ("part.step", "--unit in --ap 242 --name Lid --up-axis y"),
         ("part.STP", "--no-pack"),
@@ -45,6 +45,7 @@ fn convert_reports_and_names() {
         ("part.json", "--pack"),
         ("first.step", "--method pccm-first"),
         ("quintic.step", "--method bi5"),
+        ("caps.step", "--method g2"),
         ("near.step", "--max-deviation 1e-4"),
         ("deep.step", "--level 3"),
     ] {
@@ -251,6 +252,8 @@ fn mistakes_in_typing_are_usage_errors() {
         ("convert cube.obj -o a.step --max-deviation -1", "max-deviation"),
         ("convert cube.obj -o a.step --max-deviation nan", "positive length"),
         ("convert cube.obj -o a.step --unit foot", "known are mm, cm, m, in"),
+        ("convert cube.obj -o a.step --method g3", "known are pccm, pccm-first, bi5, g2"),
+        ("convert cube.obj -o a.step --method g2 --level 7", "6 is the most"),
         ("convert cube.obj -o a.step --threads 0", "--threads"),
         ("convert cube.obj -o a.step -q -v", "cannot be used with"),
         ("convert cube.xyz -o a.step", "--input-format"),
@@ -272,7 +275,6 @@ fn mistakes_in_typing_are_usage_errors() {
 fn what_this_build_does_not_have_is_said() {
     let folder = Folder::with_cube();
     for arguments in [
-        "convert cube.obj -o a.step --method g2",
         "convert cube.obj -o a.step --iges 186",
         "convert cube.obj -o a.iges",
         "convert cube.obj -o a.IGS",
