@@ -13,8 +13,8 @@ from OCP.gp import gp_Pnt, gp_Vec
 from joins import SHARP, SINGULAR
 from occ import Model, SharedEdge
 
-SAMPLES = 5
-"""Points looked at along each edge, none of them an end."""
+SAMPLES = 4
+"""Points looked at along each edge, none of them an end, closer together near the ends: there are the irregular vertices."""
 
 
 @dataclass
@@ -83,7 +83,7 @@ def _along(shared: SharedEdge) -> list[tuple[float, float]]:
     first, last = curve.FirstParameter(), curve.LastParameter()
     found = []
     for sample in range(SAMPLES):
-        t = first + (last - first) * (sample + 0.5) / SAMPLES
+        t = first + (last - first) * (1 - math.cos(math.pi * (sample + 0.5) / SAMPLES)) / 2
         here, there = left.at(t), right.at(t)
         tangent = curve.DN(t, 1)
         if here is None or there is None or tangent.Magnitude() == 0.0:

@@ -54,9 +54,8 @@ def spot_of_caps(converted: Converter) -> Converted:
 
 def has_only_caps(part: Converted) -> bool:
     """Whether no irregular vertex had to be left to PCCM."""
-    left = [note for note in part.report["notes"] if note["code"] == "no_cap"]
-    assert len(left) == 0 or part.report["caps"] < len(part.report["nodes"])
-    return part.report["caps"] == len(part.report["nodes"])
+    has_none_left = all(note["code"] != "no_cap" for note in part.report["notes"])
+    return has_none_left and part.report["caps"] == len(part.report["nodes"])
 
 
 def degree(face: TopoDS_Face) -> tuple[int, int]:
