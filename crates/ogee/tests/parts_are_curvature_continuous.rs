@@ -1,6 +1,8 @@
 //! `convert --method g2`: caps of the coarsest level around every irregular vertex, one closed shell, and no jump of curvature
 //! anywhere that a cap can be.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod cages;
 
 use std::collections::BTreeMap;
@@ -175,6 +177,10 @@ fn only_what_deviates_goes_deeper() {
     }
     let fixed = to_part(&cage, &Options { max_deviation: Some(wanted), level: Some(1), ..g2() });
     assert!(matches!(fixed, Err(ConvertError::Deviation { .. })));
+    for nothing in [f64::NAN, 0.0] {
+        let refused = to_part(&shapes::torus(8, 6), &Options { max_deviation: Some(nothing), ..g2() });
+        assert!(matches!(refused, Err(ConvertError::Deviation { .. })), "{nothing}");
+    }
     let hopeless = to_part(&cage, &Options { max_deviation: Some(1e-12), ..g2() });
     assert!(matches!(hopeless, Err(ConvertError::Deviation { level: 6, .. })));
 }

@@ -47,6 +47,7 @@ impl<'a> Curvature<'a> {
             if reached < wanted {
                 return Ok(converted);
             }
+            let mut raised = false;
             for (fan, node) in converted.fans.iter().zip(&converted.nodes) {
                 if node.deviation >= wanted {
                     let level = fan.level as u32;
@@ -54,7 +55,12 @@ impl<'a> Curvature<'a> {
                         return Err(ConvertError::Deviation { wanted, reached, level });
                     }
                     levels.insert(fan.number, level + 1);
+                    raised = true;
                 }
+            }
+            if !raised {
+                // Where nothing deviates a tolerance that is none cannot be met either.
+                return Err(ConvertError::Deviation { wanted, reached, level: least });
             }
         }
     }
@@ -64,7 +70,8 @@ impl<'a> Curvature<'a> {
         level_of: impl Fn(u32) -> u32,
         memory: Option<u64>,
     ) -> Result<Curvature<'a>, ConvertError> {
-        let tiling = Tiling::new(&source.adaptive, level_of)?;
+        let tiling =
+            Tiling::new(&source.adaptive, level_of).map_err(|face| ConvertError::Irregular { face })?;
         check_memory(&tiling, memory)?;
         let mut fans = par::map(tiling.caps.len(), |cap| capped(&tiling.adaptive, &tiling.caps[cap]));
         let mut broken = Vec::new();

@@ -19,7 +19,6 @@ mod source;
 pub use curves::largest_distance_to_edges;
 pub use part::{Body, LevelFaces, Method, Node, NodeKind, Part, Report};
 
-use crate::g2_caps;
 use crate::lens::{self, LensError};
 use crate::math::Vec3;
 use crate::mesh::{ControlMesh, FaceId, HalfedgeId, Meeting, Note, TopologyError, VertexId, notes};
@@ -104,9 +103,12 @@ pub enum ConvertError {
     /// Something is in the way of a vertex of valence 2.
     #[error(transparent)]
     Lens(LensError),
-    /// What refinement should have cured, and did not.
-    #[error(transparent)]
-    Obstacle(#[from] g2_caps::Obstacle),
+    /// Refinement should have made regular faces and caps of it, and did not.
+    #[error("face {face} stays irregular however often it is refined; use the method pccm")]
+    Irregular {
+        /// The face.
+        face: FaceId,
+    },
     /// The quintic method is for cages without a boundary, and a cap leaves one.
     #[error(
         "bi5 has no patches beside caps, as around vertex {vertex}; use the method pccm, or merge its lens"
@@ -179,7 +181,7 @@ impl ConvertError {
             ConvertError::Topology(error) => error.defects[0].code(),
             ConvertError::Pccm(error) => error.code(),
             ConvertError::Lens(error) => error.code(),
-            ConvertError::Obstacle(error) => error.code(),
+            ConvertError::Irregular { .. } => "irregular",
             ConvertError::Cap { .. } => "cap",
             ConvertError::Meeting { .. } => "meeting",
             ConvertError::Seam { .. } => "seam",

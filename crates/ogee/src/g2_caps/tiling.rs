@@ -46,8 +46,8 @@ impl Tiling {
     /// Cuts a cage; `level_of` is the least level of the caps around a vertex, given by the number that it keeps on all levels.
     ///
     /// # Errors
-    /// The first obstacle that is left on a level so deep that refinement will not cure it.
-    pub(crate) fn new(cage: &Adaptive, level_of: impl Fn(u32) -> u32) -> Result<Tiling, Obstacle> {
+    /// A face of the cage, a part of which is neither regular nor in a cap on a level so deep that refinement will not change that.
+    pub(crate) fn new(cage: &Adaptive, level_of: impl Fn(u32) -> u32) -> Result<Tiling, FaceId> {
         let mut tiling =
             Tiling { adaptive: cage.clone(), regular: Vec::new(), caps: Vec::new(), uncapped: Vec::new() };
         let mut todo: Vec<FaceId> = cage.levels()[0].visible_faces().collect();
@@ -57,11 +57,9 @@ impl Tiling {
             found.caps(number, &level_of, &mut tiling.caps, &mut tiling.uncapped);
             let (regular, rest) = found.regular();
             tiling.regular.push(regular);
-            if rest.is_empty() {
-                break;
-            }
-            if let Some(obstacle) = found.waiting.filter(|_| number >= DEEPEST) {
-                return Err(obstacle);
+            let Some(&left) = rest.first() else { break };
+            if number >= DEEPEST {
+                return Err(level.addresses[left.index()].face);
             }
             let wanted = with_hidden(level, &rest);
             let children = tiling.adaptive.refine(&wanted);
@@ -85,15 +83,13 @@ struct Found<'a> {
     todo: &'a [FaceId],
     /// By face: true while it is not taken.
     left: Vec<bool>,
-    /// An obstacle that refinement is to cure.
-    waiting: Option<Obstacle>,
 }
 
 impl<'a> Found<'a> {
     fn new(level: &'a AdaptiveLevel, todo: &'a [FaceId]) -> Found<'a> {
         let mut left = vec![false; level.level.topology().face_count()];
         todo.iter().for_each(|face| left[face.index()] = true);
-        Found { level, todo, left, waiting: None }
+        Found { level, todo, left }
     }
 
     /// Puts caps wherever they may sit, and finds sectors that can have none.
@@ -133,8 +129,8 @@ impl<'a> Found<'a> {
                         self.take(&halfedges);
                         uncapped.push(Uncapped { level: number, obstacle, halfedges });
                     }
-                    Err(obstacle) => self.waiting = Some(obstacle),
-                    Ok(Some(_)) => {}
+                    // Refinement will help.
+                    Err(_) | Ok(Some(_)) => {}
                 }
             }
         }
