@@ -3,7 +3,7 @@
 //!
 //! Where a vertex can have no cap its faces are smoothed by PCCM, which leaves their far sides as they are, and a note says so.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::cap_deviation::{self, Fan};
 use super::part::{LevelFaces, Node, NodeKind};
@@ -260,7 +260,7 @@ impl Smoothed {
             closed: false,
             surfaces: surfaces.by_ref().take(sector.halfedges.len()).collect(),
         };
-        let apexes: Vec<VertexId> =
+        let apexes: BTreeSet<VertexId> =
             sectors.iter().map(|sector| topology.origin(sector.halfedges[0])).collect();
         let broken = patches.broken().into_iter().filter(|&h| apexes.contains(&topology.origin(h)));
         Smoothed { fans: sectors.iter().map(fan).collect(), broken: broken.collect() }

@@ -71,7 +71,8 @@ impl UpAxis {
 pub struct Options {
     /// The construction.
     pub method: Method,
-    /// Refinements before the conversion; `None` for the least that is right for the cage.
+    /// Refinements of every face before the conversion, of the method G2 the least level of all caps; `None` for the least that is
+    /// right for each.
     pub level: Option<u32>,
     /// Raise the level until the measured deviation from the limit surface is below this length. With a `level` given
     /// nothing is raised: a larger deviation is then an error.

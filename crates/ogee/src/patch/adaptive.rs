@@ -180,3 +180,58 @@ impl Adaptive {
         self.levels[number].parents.get(edge.index() / 2).map(|&parent| EdgeId(parent))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{ControlMesh, Crease, Creasing, Sharpness, shapes};
+
+    /// A hilly sheet with a long crease that bends and whose sharpness varies, which Chaikin's rule hands down from both ends of an edge.
+    fn sheet(creasing: Creasing) -> ControlMesh {
+        let mut mesh = shapes::grid(9, 9);
+        mesh.points.iter_mut().enumerate().for_each(|(k, p)| p.z = ((3 * k) as f64).sin());
+        mesh.scheme.creasing = creasing;
+        let path = [12, 22, 32, 33, 34, 44, 54, 64, 65, 66, 67];
+        for (k, ends) in path.windows(2).enumerate() {
+            let sharpness = Sharpness::Finite(1.3 + 0.4 * (k % 4) as f64);
+            mesh.creases.push(Crease { vertices: [ends[0], ends[1]], sharpness });
+        }
+        mesh
+    }
+
+    #[test]
+    fn some_faces_become_what_they_become_with_all() {
+        for creasing in [Creasing::Uniform, Creasing::Chaikin] {
+            let mesh = sheet(creasing);
+            let level = Level::new(&mesh).expect("a sound cage");
+            let faces = || (0..level.topology().face_count() as u32).map(FaceId);
+            let addresses = faces().map(FaceAddress::whole).collect();
+            let cage = Adaptive::new(level.clone(), mesh.points.clone(), addresses);
+            for face in faces() {
+                let (mut few, mut all) = (cage.clone(), cage.clone());
+                let (mut own, mut whole) = (vec![face], vec![face]);
+                for step in 0..3 {
+                    own = few.refine(&own);
+                    let count = all.last().level.topology().face_count() as u32;
+                    all.refine(&(0..count).map(FaceId).collect::<Vec<_>>());
+                    whole = all.children(step, &whole);
+                    let (few, all) = (few.last(), all.last());
+                    for (&a, &b) in own.iter().zip(&whole) {
+                        assert_eq!(few.addresses[a.index()], all.addresses[b.index()]);
+                        let sides = few.level.topology().halfedges(a).zip(all.level.topology().halfedges(b));
+                        for (a, b) in sides {
+                            let of = |at: &AdaptiveLevel, h: HalfedgeId| {
+                                (at.points[at.level.topology().origin(h).index()], at.level.edge_sharpness(h))
+                            };
+                            let ((one, sharpness), (other, wanted)) = (of(few, a), of(all, b));
+                            assert!(one.distance(other) < 1e-14, "{creasing:?}, face {face}, step {step}");
+                            // Both infinite on the boundary.
+                            let agree = sharpness == wanted || (sharpness - wanted).abs() < 1e-14;
+                            assert!(agree, "{creasing:?}, face {face}, step {step}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
