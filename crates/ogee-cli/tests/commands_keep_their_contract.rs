@@ -36,7 +36,7 @@ fn info_counts() {
 fn convert_reports_and_names() {
     let folder = Folder::with_cube();
     let fields = "method level cage_faces patches faces_written edges vertices solids shells closed unit volume area \
-                  bbox max_normal_angle_deg max_gap max_deviation max_deviation_relative max_curvature_jump \
+                  bbox max_normal_angle_deg max_gap max_deviation max_deviation_relative max_curvature_jump max_curvature_jump_absolute \
                   smooth_edges sharp_edges levels caps cap_degree nodes lenses seconds file_bytes peak_bytes notes";
     for (output, options) in [
         ("part.step", "--unit in --ap 242 --name Lid --up-axis y"),

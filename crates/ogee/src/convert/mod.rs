@@ -388,6 +388,7 @@ fn finish(source: &Source, construction: &Construction<'_>, options: &Options, m
     report.max_gap = continuity.max_gap;
     report.max_normal_angle_deg = continuity.max_normal_angle.to_degrees();
     report.max_curvature_jump = continuity.max_curvature_jump * source.size;
+    report.max_curvature_jump_absolute = continuity.max_curvature_jump;
     report.smooth_edges = continuity.smooth_edges;
     report.sharp_edges = continuity.sharp_edges;
     report.notes = all_notes;

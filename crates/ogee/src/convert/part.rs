@@ -152,6 +152,8 @@ pub struct Report {
     /// Largest difference of the normal curvature across smooth shared edges, perpendicular to the edge, times
     /// the diagonal of the bounding box.
     pub max_curvature_jump: f64,
+    /// The same difference itself, in one over the unit of length.
+    pub max_curvature_jump_absolute: f64,
     /// Shared edges that are smooth by construction.
     pub smooth_edges: usize,
     /// Shared edges that are not.
