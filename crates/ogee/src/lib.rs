@@ -122,7 +122,7 @@ pub use mesh::{
     TopologyError, Valence, VertexId, shapes,
 };
 pub use patch::{Location, LocationError, ParametricFace, PatchStatistics, PatchTable};
-pub use refine::{FineMesh, Refinement, Step, TooDeep};
+pub use refine::{DenseRefinement, FineMesh, Refinement, Step, TooDeep};
 pub use rules::{EdgeRule, Level, Sector, VertexMask, VertexRule};
 pub use stencil::{Row, StencilTable};
 

@@ -484,8 +484,6 @@ fn the_fast_path_is_the_table() {
             let (next, by_fast_path) = level.refine_points(&points);
             let gap = by_table.iter().zip(&by_fast_path).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
             assert!(by_table.len() == by_fast_path.len() && gap < 1e-14, "{name}: {gap:e}");
-            let fine = level.fine_mesh(&points, 1, u64::MAX).unwrap();
-            assert!(fine.points == by_fast_path && fine.faces == next.quads(), "{name}");
             (level, points) = (next, by_fast_path);
         }
     }

@@ -43,3 +43,13 @@ impl Interpolate for Vec3 {
         *self += weight * *value;
     }
 }
+
+/// What is numbers in a row, so that many of them are one long row: points, uv, weights. Inner loops run over the numbers.
+pub trait Components: Interpolate + bytemuck::Pod {
+    /// How many numbers one is.
+    const COUNT: usize = size_of::<Self>() / size_of::<f64>();
+}
+
+impl Components for f64 {}
+impl<const N: usize> Components for [f64; N] where [f64; N]: bytemuck::Pod {}
+impl Components for Vec3 {}

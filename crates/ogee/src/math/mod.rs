@@ -4,6 +4,7 @@ pub(crate) mod par;
 
 pub(crate) mod bounds;
 pub(crate) mod circulant;
+pub(crate) mod fresh;
 mod grid;
 mod interpolate;
 mod jet;
@@ -13,6 +14,6 @@ pub(crate) mod sparse;
 mod vec3;
 
 pub use grid::Grid;
-pub use interpolate::Interpolate;
+pub use interpolate::{Components, Interpolate};
 pub use jet::{Curvature, SurfaceJet};
 pub use vec3::Vec3;

@@ -92,3 +92,22 @@ pub(crate) fn join(a: impl FnOnce() + Send, b: impl FnOnce() + Send) {
         b();
     }
 }
+
+/// `f(0, chunk 0), f(1, chunk 1), ..` of the chunks of `size` values on all cores; calls that a thread makes one after the other
+/// share memory.
+pub(crate) fn chunks<T: Send, M>(
+    values: &mut [T],
+    size: usize,
+    memory: impl Fn() -> M + Sync + Send,
+    f: impl Fn(&mut M, usize, &mut [T]) + Sync + Send,
+) {
+    #[cfg(feature = "rayon")]
+    if values.len() > CHUNK {
+        use rayon::prelude::*;
+        let calls = values.par_chunks_exact_mut(size).enumerate().with_min_len(CHUNK.div_ceil(size));
+        calls.for_each_init(memory, |memory, (i, chunk)| f(memory, i, chunk));
+        return;
+    }
+    let mut memory = memory();
+    values.chunks_exact_mut(size).enumerate().for_each(|(i, chunk)| f(&mut memory, i, chunk));
+}

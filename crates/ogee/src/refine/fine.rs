@@ -1,26 +1,18 @@
 //! `FineMesh`: the finest level as plain quads, for files and pictures.
 
-use std::borrow::Cow;
-
-use super::split::child_quad;
-use crate::math::{Interpolate, Vec3, par};
-use crate::mesh::connectivity::Connectivity;
+#[cfg(doc)]
+use super::DenseRefinement;
+use crate::math::{Components, Vec3};
 use crate::mesh::{FaceId, HalfedgeId};
 use crate::rules::Level;
 
-/// A refined mesh as points (or other data) and quads; its last level keeps no connectivity.
+/// A refined mesh as points (or other data) and quads, numbered as [`DenseRefinement`] says; no level keeps connectivity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FineMesh<T = Vec3> {
     /// Points of the finest level.
     pub points: Vec<T>,
-    /// The quads, in the order of the level's faces; hidden ones are left out.
+    /// The quads; hidden ones are left out.
     pub faces: Vec<[u32; 4]>,
-}
-
-/// The quads of the level after `topology`.
-fn write_quads(topology: &impl Connectivity, out: &mut Vec<[u32; 4]>) {
-    out.clear();
-    par::extend(out, topology.halfedge_count(), |h| child_quad(topology, HalfedgeId(h as u32)));
 }
 
 /// A depth that would not fit.
@@ -36,15 +28,14 @@ pub struct TooDeep {
 }
 
 impl Level {
-    /// `depth` steps of refinement of points alone. The last level's connectivity is never made, which saves most
-    /// of the time and memory.
+    /// `depth` steps of refinement of points alone: [`Level::dense`], its points and its quads.
     ///
     /// # Errors
-    /// If the finest level would have `2^32 - 1` halfedges or more, or more than `memory` bytes would be needed.
+    /// As [`Level::dense`].
     ///
     /// # Panics
     /// If `depth` is 0 (a cage is no mesh of quads), or there are fewer points than vertices.
-    pub fn fine_mesh<T: Interpolate>(
+    pub fn fine_mesh<T: Components>(
         &self,
         points: &[T],
         depth: u32,
@@ -63,40 +54,30 @@ impl Level {
     ///
     /// # Panics
     /// As [`Level::fine_mesh`].
-    pub fn fine_mesh_into<T: Interpolate>(
+    pub fn fine_mesh_into<T: Components>(
         &self,
         points: &[T],
         depth: u32,
         memory: u64,
         mesh: &mut FineMesh<T>,
     ) -> Result<(), TooDeep> {
-        assert!(depth > 0, "a fine mesh is at least one step away");
-        self.check_depth(depth, memory)?;
-        let mut level = Cow::Borrowed(self);
-        let mut points = Cow::Borrowed(points);
-        for _ in 1..depth {
-            let (next, next_points) = level.refine_points(&points);
-            (level, points) = (Cow::Owned(next), Cow::Owned(next_points));
-        }
-        level.last_step(&points, mesh);
+        let refinement = self.dense(depth, memory)?;
+        refinement.points(points, &mut mesh.points);
+        refinement.quads(&mut mesh.faces);
         Ok(())
     }
 
-    fn last_step<T: Interpolate>(&self, points: &[T], mesh: &mut FineMesh<T>) {
-        let topology = self.topology();
-        self.child_points(points, &mut mesh.points);
-        match topology.as_quads() {
-            Some(quads) => write_quads(&quads, &mut mesh.faces),
-            None => write_quads(topology, &mut mesh.faces),
+    /// Leaves those of the next level's quads that are part of the surface.
+    pub(super) fn retain_visible(&self, quads: &mut Vec<[u32; 4]>) {
+        if self.hidden_faces().is_empty() {
+            return;
         }
-        if !self.hidden_faces().is_empty() {
-            let mut halfedge = 0;
-            mesh.faces.retain(|_| {
-                let visible = self.is_visible(topology.face(HalfedgeId(halfedge)));
-                halfedge += 1;
-                visible
-            });
-        }
+        let mut halfedge = 0;
+        quads.retain(|_| {
+            let visible = self.is_visible(self.topology().face(HalfedgeId(halfedge)));
+            halfedge += 1;
+            visible
+        });
     }
 
     /// The visible faces of this level as quads.

@@ -2,6 +2,7 @@
 
 mod ahead;
 mod cage;
+mod dense;
 mod fine;
 mod points;
 pub(crate) mod split;
@@ -9,6 +10,7 @@ mod step;
 mod uniform;
 
 pub(crate) use ahead::Ahead;
+pub use dense::DenseRefinement;
 pub use fine::{FineMesh, TooDeep};
 pub use step::Step;
 pub use uniform::Refinement;

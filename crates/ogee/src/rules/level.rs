@@ -1,7 +1,10 @@
 //! `Level`: a topology with its rules; one rung of refinement.
 
+use std::sync::Arc;
+
 use super::classify::{classify_edges, classify_vertices, hidden_faces};
 use super::{EdgeRule, Sparse, VertexMask, VertexRule};
+use crate::crease::rule::fade;
 use crate::curve_network::rule::Slice;
 use crate::mesh::{
     Boundary, ControlMesh, Creasing, FaceId, HalfedgeId, LensShape, Meeting, Scheme, Topology, TopologyError,
@@ -21,7 +24,8 @@ pub(crate) struct SharpEdge {
 /// Functions that take an id panic if it is out of range.
 #[derive(Clone, Debug)]
 pub struct Level {
-    pub(super) topology: Topology,
+    /// Shared: a level one step on may stand on the same connectivity, see [`Level::faded`].
+    pub(super) topology: Arc<Topology>,
     pub(super) scheme: Scheme,
     /// Edges with sharpness above zero that are no boundary edges (those are always infinitely sharp).
     pub(super) sharp_edges: Sparse<SharpEdge>,
@@ -71,7 +75,7 @@ impl Level {
 
     /// A level from checked parts.
     pub(crate) fn with_sharpness(
-        topology: Topology,
+        topology: impl Into<Arc<Topology>>,
         scheme: Scheme,
         sharp_edges: Sparse<SharpEdge>,
         vertex_sharpness: Sparse<f64>,
@@ -79,7 +83,7 @@ impl Level {
     ) -> Level {
         let (slices, edge_rules, vertex_rules) = (Sparse::default(), Sparse::default(), Sparse::default());
         let mut level = Level {
-            topology,
+            topology: topology.into(),
             scheme,
             sharp_edges,
             vertex_sharpness,
@@ -100,6 +104,24 @@ impl Level {
         self.vertex_rules = Sparse::new(self.vertex_rules.iter().chain(stay).collect());
         self.slices = slices;
         self
+    }
+
+    /// The level whose rules at vertices and edges are those which `steps` of refinement leave there, over the same
+    /// connectivity. Creasing is to be uniform, so that both halves of an edge have the same sharpness.
+    pub(crate) fn faded(&self, steps: u32) -> Level {
+        let fade = |s: f64| (0..steps).fold(s, |s, _| fade(s));
+        let edges = self
+            .sharp_edges
+            .iter()
+            .map(|(e, edge)| (e, SharpEdge { sharpness: fade(edge.sharpness), ..edge }));
+        let vertices = self.vertex_sharpness.iter().map(|(v, s)| (v, fade(s)));
+        Level::with_sharpness(
+            self.topology.clone(),
+            self.scheme,
+            Sparse::new(edges.collect()).filter(|edge| edge.sharpness > 0.0),
+            Sparse::new(vertices.collect()).filter(|s| s > 0.0),
+            self.hidden.clone(),
+        )
     }
 
     /// The level with other hidden faces, given in order.

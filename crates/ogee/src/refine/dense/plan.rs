@@ -1,0 +1,222 @@
+//! `DenseRefinement`: what there is to know before points come, and the steps.
+
+use std::borrow::Cow;
+
+use super::grids::{Frame, Grids};
+use super::numbering::Numbering;
+use super::{corners, interiors, levels, sides};
+use crate::math::{Components, fresh, par};
+use crate::mesh::connectivity::Connectivity;
+use crate::mesh::{FaceId, HalfedgeId};
+use crate::refine::TooDeep;
+use crate::refine::split::child_quad;
+use crate::rules::Level;
+
+/// Refinement by several steps with neither tables nor levels in between: set-up is this plan alone, for cages that move as
+/// well as for those that are refined once.
+///
+/// The base of the grids is the cage if all of its faces are quads, otherwise its first level. Over every quad of the base stands
+/// a grid of `side` x `side` quads, `side = 2^depth` or half of that. With `V` vertices, `F` faces and `E` edges of the base, and
+/// `M = side - 1`, the vertices are
+///
+/// - `0 .. V`: the corners of grids, numbered as in the base level;
+/// - from `V + f M^2`: inside quad `f`, `(i, j)` at `(i - 1) M + (j - 1)`, `i` along u, `j` along v;
+/// - from `V + F M^2 + e M`: inside edge `e`, from the origin of its smaller halfedge;
+///
+/// and the quads over quad `f` are `f side^2 ..`, cell `(i, j)` at `i side + j`, each from its corner `(i, j)` on along u. Those
+/// over hidden faces are left out.
+///
+/// Beside the results a step holds about one row of points an edge. Where curves meet, and where Chaikin's rule spreads
+/// sharpness along edges, levels are made after all.
+#[derive(Clone, Debug)]
+pub struct DenseRefinement<'a> {
+    cage: &'a Level,
+    way: Way<'a>,
+}
+
+#[derive(Clone, Debug)]
+enum Way<'a> {
+    /// One step of a cage with other polygons, whose first level is nobody's base.
+    Step,
+    /// Grids over a level of quads.
+    Grids {
+        base: Cow<'a, Level>,
+        numbering: Numbering,
+        steps: u32,
+        /// The base level as the steps after the first find its rules; where there are fewer, they do not change any more.
+        rules: Vec<Level>,
+    },
+    /// The same numbering, over levels.
+    Levels { base: Cow<'a, Level>, numbering: Numbering, levels: Vec<Level> },
+}
+
+impl Level {
+    /// Plans `depth` steps of refinement.
+    ///
+    /// # Errors
+    /// If the last level would have `2^32 - 1` vertices or more, or its points, of three numbers each, and faces would need more
+    /// than `memory` bytes.
+    ///
+    /// # Panics
+    /// If `depth` is 0: a cage is no mesh of quads.
+    pub fn dense(&self, depth: u32, memory: u64) -> Result<DenseRefinement<'_>, TooDeep> {
+        assert!(depth > 0, "a fine mesh is at least one step away");
+        self.check_depth(depth, memory)?;
+        let quads = self.topology().is_quads();
+        if depth == 1 && !quads {
+            return Ok(DenseRefinement { cage: self, way: Way::Step });
+        }
+        let (base, steps) =
+            if quads { (Cow::Borrowed(self), depth) } else { (Cow::Owned(self.split()), depth - 1) };
+        let numbering = Numbering::new(base.topology(), 1 << steps);
+        let spreads = base.has_slices() || base.is_chaikin() && base.semi_sharp_edges().next().is_some();
+        let way = if spreads {
+            let mut levels = vec![base.split()];
+            for _ in 1..steps {
+                let next = levels[levels.len() - 1].split();
+                levels.push(next);
+            }
+            Way::Levels { base, numbering, levels }
+        } else {
+            let mut rules: Vec<Level> = Vec::new();
+            for step in 1..steps {
+                let last = rules.last().unwrap_or(&base);
+                if last.semi_sharp_edges().next().is_none() && last.semi_sharp_vertices().next().is_none() {
+                    break;
+                }
+                rules.push(base.faded(step));
+            }
+            Way::Grids { base, numbering, steps, rules }
+        };
+        Ok(DenseRefinement { cage: self, way })
+    }
+}
+
+impl DenseRefinement<'_> {
+    /// Number of vertices of the last level.
+    pub fn vertex_count(&self) -> usize {
+        match &self.way {
+            Way::Step => {
+                let topology = self.cage.topology();
+                topology.vertex_count() + topology.face_count() + topology.edge_count()
+            }
+            Way::Grids { numbering, .. } | Way::Levels { numbering, .. } => numbering.count(),
+        }
+    }
+
+    /// Number of quads of the last level, hidden ones left out.
+    pub fn face_count(&self) -> usize {
+        match &self.way {
+            Way::Step => {
+                let topology = self.cage.topology();
+                let hidden = self.cage.hidden_faces().iter().map(|&f| topology.face_size(f) as usize);
+                topology.halfedge_count() - hidden.sum::<usize>()
+            }
+            Way::Grids { base, numbering, .. } | Way::Levels { base, numbering, .. } => {
+                (numbering.faces - base.hidden_faces().len()) * numbering.side * numbering.side
+            }
+        }
+    }
+
+    /// The points of the last level, or other data there, from those of the cage. They go into the memory that `out` has: fresh
+    /// memory costs more than the arithmetic.
+    ///
+    /// # Panics
+    /// If there are fewer values than vertices of the cage.
+    pub fn points<T: Components>(&self, cage: &[T], out: &mut Vec<T>) {
+        match &self.way {
+            Way::Step => self.cage.child_points(cage, out),
+            Way::Grids { base, numbering, steps, rules } => {
+                let values = self.base_values(base, cage);
+                if *steps == 1 {
+                    base.child_points(&values, out);
+                } else if let Some(quads) = base.topology().as_quads() {
+                    refine(base, &quads, numbering, rules, &values, out);
+                }
+            }
+            Way::Levels { base, levels, .. } => {
+                levels::points(base, levels, &self.base_values(base, cage), out);
+            }
+        }
+    }
+
+    fn base_values<'v, T: Components>(&self, base: &Cow<'_, Level>, cage: &'v [T]) -> Cow<'v, [T]> {
+        match base {
+            Cow::Borrowed(_) => Cow::Borrowed(cage),
+            Cow::Owned(_) => {
+                let mut values = Vec::new();
+                self.cage.child_points(cage, &mut values);
+                Cow::Owned(values)
+            }
+        }
+    }
+
+    /// The quads of the last level, into the memory that `out` has.
+    pub fn quads(&self, out: &mut Vec<[u32; 4]>) {
+        let (base, numbering) = match &self.way {
+            Way::Step => {
+                let topology = self.cage.topology();
+                out.clear();
+                par::extend(out, topology.halfedge_count(), |h| child_quad(topology, HalfedgeId(h as u32)));
+                self.cage.retain_visible(out);
+                return;
+            }
+            Way::Grids { base, numbering, .. } | Way::Levels { base, numbering, .. } => (base, numbering),
+        };
+        let Some(quads) = base.topology().as_quads() else { return };
+        let visible: Vec<u32> = match base.hidden_faces() {
+            [] => Vec::new(),
+            _ => (0..numbering.faces as u32).filter(|&f| base.is_visible(FaceId(f))).collect(),
+        };
+        fresh::resize(out, self.face_count());
+        par::chunks(out, numbering.side * numbering.side, Default::default, |rows, f, out| {
+            let f = visible.get(f).copied().unwrap_or(f as u32);
+            numbering.quads(&quads, FaceId(f), rows, out);
+        });
+    }
+}
+
+fn refine<C: Connectivity, T: Components>(
+    base: &Level,
+    quads: &C,
+    numbering: &Numbering,
+    rules: &[Level],
+    values: &[T],
+    out: &mut Vec<T>,
+) {
+    fresh::resize(out, numbering.count());
+    let room = numbering.per_face();
+    let (own_corners, rest) = out.split_at_mut(numbering.vertices);
+    let (own_interiors, own_sides) = rest.split_at_mut(numbering.faces * room);
+
+    let mut first = Vec::new();
+    base.child_points(values, &mut first);
+    let (points, rest) = first.split_at(numbering.vertices);
+    let (middles, mids) = rest.split_at(numbering.faces);
+    let mut corners = points.to_vec();
+    let mut sides = mids.to_vec();
+    par::chunks(own_interiors, room, || (), |(), f, inside| inside[0] = middles[f]);
+    drop(first);
+
+    let mut side = 2;
+    let mut step = 0;
+    while side < numbering.side {
+        let rules = rules.get(step).or(rules.last()).unwrap_or(base);
+        let frame = Frame { base: quads, side, corners: &corners, sides: &sides };
+        let grids = Grids { frame: &frame, interiors: own_interiors, room };
+        let next_corners = corners::refine(rules, &grids);
+        let last = 2 * side == numbering.side;
+        let mut next_sides = Vec::new();
+        if last {
+            sides::refine(rules, &grids, own_sides);
+        } else {
+            next_sides.resize(numbering.edges * (2 * side - 1), T::zero());
+            sides::refine(rules, &grids, &mut next_sides);
+        }
+        interiors::refine(&frame, own_interiors, room);
+        (corners, sides) = (next_corners, next_sides);
+        side *= 2;
+        step += 1;
+    }
+    own_corners.copy_from_slice(&corners);
+}
