@@ -9,6 +9,7 @@ mod grid;
 mod interpolate;
 mod jet;
 pub(crate) mod newton;
+pub(crate) mod pages;
 pub(crate) mod simd;
 pub(crate) mod sparse;
 mod vec3;

@@ -3,19 +3,22 @@
 //! Every output is computed by one call and written once, so results do not depend on the schedule or on the
 //! number of threads.
 
+use super::pages;
+
 /// Outputs computed by one thread in one go: large enough that handing out work costs nothing.
 #[cfg(feature = "rayon")]
 const CHUNK: usize = 1024;
 
 /// `f(0), f(1), .. f(count - 1)` on all cores; memory is written once, not cleared before.
 pub(crate) fn collect<T: Send>(count: usize, f: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
-    let mut out = Vec::with_capacity(count);
+    let mut out = pages::vector(count);
     extend(&mut out, count, f);
     out
 }
 
 /// Appends `f(0), f(1), .. f(count - 1)`.
 pub(crate) fn extend<T: Send>(out: &mut Vec<T>, count: usize, f: impl Fn(usize) -> T + Sync + Send) {
+    pages::reserve(out, count);
     #[cfg(feature = "rayon")]
     {
         use rayon::prelude::*;

@@ -4,7 +4,7 @@
 //! side and compiled twice, for plain code and for wide registers; the processor is asked once which of the two to call.
 //! Both do the same operations in the same order, products and sums apart, so results are the same bit for bit.
 //!
-//! All `unsafe` code of the crate is here.
+//! All `unsafe` code of the crate is here and in [`super::pages`].
 
 use super::Vec3;
 
