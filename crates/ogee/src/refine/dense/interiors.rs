@@ -6,8 +6,8 @@ use super::grids::Frame;
 use super::kernel::{along, edge_row, vertex_row};
 use crate::math::simd::{Four, Kernel, dispatch};
 use crate::math::{Components, par};
-use crate::mesh::FaceId;
 use crate::mesh::connectivity::Connectivity;
+use crate::mesh::{FaceId, HalfedgeId};
 
 /// Refines the insides of all quads, `room` points for each, from `frame.side` cells a side to twice as many.
 pub(super) fn refine<C: Connectivity, T: Components>(
@@ -52,10 +52,30 @@ impl<C: Connectivity, T: Components> Kernel for Refine<'_, C, T> {
         let width = 2 * n - 1;
         memory.row.resize(n + 1, T::zero());
         memory.rows.resize((n + 1) * width, T::zero());
-        for (i, out) in memory.rows.chunks_exact_mut(width).enumerate() {
-            frame.row(face, i, &points[..(n - 1) * (n - 1)], &mut memory.row);
-            along(&memory.row, out);
+        let halfedges = [0, 1, 2, 3].map(|k| HalfedgeId(4 * face.0 + k));
+        let corners = halfedges.map(|h| frame.corner(frame.base.origin(h)));
+        let sides = halfedges.map(|h| frame.side(h));
+        let mut rows = memory.rows.chunks_exact_mut(width);
+        let row = &mut memory.row[..n + 1];
+        let mut refine = |row: &[T]| {
+            if let Some(out) = rows.next() {
+                along(row, out);
+            }
+        };
+        row[0] = corners[0];
+        sides[3].copy(true, &mut row[1..n]);
+        row[n] = corners[3];
+        refine(row);
+        for (i, inside) in (1..n).zip(points.chunks_exact(n - 1)) {
+            row[0] = sides[0].at(i);
+            row[1..n].copy_from_slice(inside);
+            row[n] = sides[2].at(n - i);
+            refine(row);
         }
+        row[0] = corners[1];
+        sides[1].copy(false, &mut row[1..n]);
+        row[n] = corners[2];
+        refine(row);
         let rows: &[f64] = cast_slice(&memory.rows);
         let width = width * T::COUNT;
         let row = |m: usize| &rows[m * width..(m + 1) * width];

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::grids::{Frame, Grids};
 use super::numbering::Numbering;
 use super::{corners, interiors, levels, sides};
-use crate::math::{Components, fresh, par};
+use crate::math::{Components, pages, par};
 use crate::mesh::connectivity::Connectivity;
 use crate::mesh::{FaceId, HalfedgeId};
 use crate::refine::TooDeep;
@@ -125,10 +125,14 @@ impl DenseRefinement<'_> {
     /// If there are fewer values than vertices of the cage.
     pub fn points<T: Components>(&self, cage: &[T], out: &mut Vec<T>) {
         match &self.way {
-            Way::Step => self.cage.child_points(cage, out),
+            Way::Step => {
+                pages::resize(out, self.vertex_count());
+                self.cage.child_points(cage, out);
+            }
             Way::Grids { base, numbering, steps, rules } => {
                 let values = self.base_values(base, cage);
                 if *steps == 1 {
+                    pages::resize(out, numbering.count());
                     base.child_points(&values, out);
                 } else if let Some(quads) = base.topology().as_quads() {
                     refine(base, &quads, numbering, rules, &values, out);
@@ -168,7 +172,7 @@ impl DenseRefinement<'_> {
             [] => Vec::new(),
             _ => (0..numbering.faces as u32).filter(|&f| base.is_visible(FaceId(f))).collect(),
         };
-        fresh::resize(out, self.face_count());
+        pages::resize(out, self.face_count());
         par::chunks(out, numbering.side * numbering.side, Default::default, |rows, f, out| {
             let f = visible.get(f).copied().unwrap_or(f as u32);
             numbering.quads(&quads, FaceId(f), rows, out);
@@ -184,7 +188,7 @@ fn refine<C: Connectivity, T: Components>(
     values: &[T],
     out: &mut Vec<T>,
 ) {
-    fresh::resize(out, numbering.count());
+    pages::resize(out, numbering.count());
     let room = numbering.per_face();
     let (own_corners, rest) = out.split_at_mut(numbering.vertices);
     let (own_interiors, own_sides) = rest.split_at_mut(numbering.faces * room);
@@ -210,7 +214,7 @@ fn refine<C: Connectivity, T: Components>(
         if last {
             sides::refine(rules, &grids, own_sides);
         } else {
-            next_sides.resize(numbering.edges * (2 * side - 1), T::zero());
+            pages::resize(&mut next_sides, numbering.edges * (2 * side - 1));
             sides::refine(rules, &grids, &mut next_sides);
         }
         interiors::refine(&frame, own_interiors, room);
