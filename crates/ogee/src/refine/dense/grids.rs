@@ -14,12 +14,10 @@ pub(super) struct Frame<'a, C, T> {
     pub(super) sides: &'a [T],
 }
 
-/// A frame, and what is inside.
+/// A frame, and the points inside each quad, row after row.
 pub(super) struct Grids<'a, C, T> {
-    pub(super) frame: &'a Frame<'a, C, T>,
-    /// `room` points for each quad, as many as the last level needs; those of this level stand in front, row after row.
+    pub(super) frame: Frame<'a, C, T>,
     pub(super) interiors: &'a [T],
-    pub(super) room: usize,
 }
 
 impl<C: Connectivity, T: Components> Frame<'_, C, T> {
@@ -78,9 +76,9 @@ impl<T: Components> Side<'_, T> {
 impl<C: Connectivity, T: Components> Grids<'_, C, T> {
     /// The points inside a quad, row after row.
     #[inline(always)]
-    fn interior(&self, f: FaceId) -> &[T] {
-        let count = self.frame.side - 1;
-        &self.interiors[f.index() * self.room..][..count * count]
+    pub(super) fn interior(&self, f: FaceId) -> &[T] {
+        let count = (self.frame.side - 1) * (self.frame.side - 1);
+        &self.interiors[f.index() * count..][..count]
     }
 
     /// The point inside the face that is next to the origin of the halfedge.
@@ -93,7 +91,7 @@ impl<C: Connectivity, T: Components> Grids<'_, C, T> {
     /// `backwards`.
     #[inline(always)]
     pub(super) fn add_row_beside(&self, h: HalfedgeId, backwards: bool, weight: f64, out: &mut [T]) {
-        let (frame, n) = (self.frame, self.frame.side);
+        let (frame, n) = (&self.frame, self.frame.side);
         let ends = [frame.last(frame.base.prev(h)), frame.first(frame.base.next(h))];
         let (first, step) = self.row_beside(h);
         let inside = self.interior(frame.base.face(h));

@@ -45,6 +45,13 @@ impl Numbering {
         self.vertices + self.faces * self.per_face()
     }
 
+    /// At corners, inside quads, inside edges.
+    pub(super) fn parts<'a, T>(&self, points: &'a [T]) -> [&'a [T]; 3] {
+        let (corners, rest) = points.split_at(self.vertices);
+        let (interiors, sides) = rest.split_at(self.faces * self.per_face());
+        [corners, interiors, sides]
+    }
+
     /// The numbers on a halfedge from its origin to its target, and how to reach those between.
     #[inline(always)]
     fn side(&self, base: &impl Connectivity, h: HalfedgeId) -> Side {
@@ -68,7 +75,8 @@ impl Numbering {
         out: &mut [[u32; 4]],
     ) {
         let n = self.side;
-        let sides = [0, 1, 2, 3].map(|k| self.side(base, HalfedgeId(4 * f.0 + k)));
+        let side = |k: u32| self.side(base, HalfedgeId(4 * f.0 + k));
+        let sides = [side(0), side(1), side(2), side(3)];
         let inside = (self.vertices + f.index() * self.per_face()) as u32;
         if n == 2 {
             let [a, b, c, d] = sides.map(|side| side.origin);
@@ -98,8 +106,9 @@ impl Numbering {
                 high[n] = sides[2].origin;
                 (1..n).for_each(|j| high[j] = sides[1].at(j));
             }
-            for (cell, (low, high)) in cells.iter_mut().zip(low.windows(2).zip(high.windows(2))) {
-                *cell = [low[0], high[0], high[1], low[1]];
+            let [from, to] = [&low[..n + 1], &high[..n + 1]];
+            for j in 0..n {
+                cells[j] = [from[j], to[j], to[j + 1], from[j + 1]];
             }
             std::mem::swap(low, high);
         }
