@@ -66,7 +66,7 @@
 //! | `stencil` | [`Row`] and [`StencilTable`]: weights, and the one loop that applies them |
 //! | `catmull_clark`, `crease` | the masks |
 //! | `rules` | [`Level`]: a topology with its rules; [`Sector`]; the rule table |
-//! | `refine` | the one-to-four split, [`Step`], [`Refinement`], [`FineMesh`] |
+//! | `refine` | the one-to-four split, [`Step`], [`Refinement`], [`DenseRefinement`], [`FineMesh`] |
 //! | `patch` | [`PatchTable`]: what each face's surface is made of; [`Location`]; limit masks; pieces of a level, taken out |
 //! | `limit` | [`LimitSurface`]: the surface at any point; [`Pattern`]: at the same places on every face; [`ClosestPoints`]; [`limit_vertices`] |
 //! | [`fairing`] | the cage that bends least, of all whose surface goes through given points |
@@ -131,6 +131,9 @@ pub use stencil::{Row, StencilTable};
 mod doctests {
     #[doc = include_str!("../../../docs/methods/catmull_clark.md")]
     struct CatmullClark;
+
+    #[doc = include_str!("../../../docs/methods/dense_refinement.md")]
+    struct DenseRefinement;
 
     #[doc = include_str!("../../../docs/methods/exact_evaluation.md")]
     struct ExactEvaluation;

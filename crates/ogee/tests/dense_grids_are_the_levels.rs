@@ -4,7 +4,9 @@ mod cages;
 mod golden;
 
 use golden::{cage, documents};
-use ogee::{ControlMesh, DenseRefinement, FaceId, FineMesh, Grid, Level, Refinement, Vec3, VertexId};
+use ogee::{
+    ControlMesh, DenseRefinement, FaceId, FineMesh, Grid, Level, Refinement, Vec3, VertexId, limit_vertices,
+};
 use proptest::prelude::*;
 
 /// Relative to the size of the cage.
@@ -21,6 +23,12 @@ fn compare(name: &str, mesh: &ControlMesh, depth: u32) -> f64 {
     dense.quads(&mut quads);
     assert_eq!((points.len(), quads.len()), (dense.vertex_count(), dense.face_count()), "{name}");
     assert_eq!(points.len(), wanted.len(), "{name}");
+    let in_order = dense.from_levels(refinement.finest(), &wanted);
+    let gap = in_order.iter().zip(&points).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+    assert!(
+        in_order.len() == points.len() && gap <= TOLERANCE * mesh.size(),
+        "{name}, {depth} steps: {gap:e}"
+    );
     let visible: Vec<[u32; 4]> = refinement.finest().quads();
     assert_eq!(quads.len(), visible.len(), "{name}");
 
@@ -187,5 +195,81 @@ proptest! {
     fn any_cage(mesh in cages::tagged(Just(cages::cloud(60))), depth in 1..5_u32) {
         prop_assume!(Level::new(&mesh).is_ok());
         compare("any", &mesh, depth);
+    }
+}
+
+/// What would not fit is refused before anything is made, with the greatest depth that fits.
+#[test]
+fn too_deep_is_said_beforehand() {
+    let polygons = cages::prism(5);
+    for mesh in [cages::body(), polygons] {
+        let level = Level::new(&mesh).unwrap();
+        let mut last = 0;
+        for depth in 1..=8 {
+            let bytes = level.dense_memory(depth).unwrap();
+            assert!(bytes > last, "{depth}: {bytes}");
+            last = bytes;
+            assert!(level.dense(depth, bytes).is_ok());
+            let error = level.dense(depth, bytes - 1).unwrap_err();
+            assert_eq!((error.depth, error.deepest), (depth, depth - 1));
+        }
+        let points = |depth: u32| (mesh.faces.corners().len() as u64) << (2 * (depth - 1));
+        let deepest = (1..20).rev().find(|&depth| points(depth) < u64::from(u32::MAX) * 9 / 10).unwrap();
+        assert!(level.dense_memory(deepest).is_some() && level.dense_memory(deepest + 2).is_none());
+        for depth in [deepest + 2, 46, u32::MAX] {
+            let error = level.dense(depth, u64::MAX).unwrap_err();
+            assert_eq!(error.depth, depth);
+            assert!(error.deepest.abs_diff(deepest) <= 1, "{error}");
+        }
+    }
+}
+
+/// Memory that is stated is enough: points and quads as they come to stand, and the level before.
+#[test]
+fn stated_memory_holds_the_result() {
+    for (name, mesh) in cages::all() {
+        let level = Level::new(&mesh).unwrap();
+        for depth in 1..=4 {
+            let fine = level.fine_mesh(&mesh.points, depth, u64::MAX).unwrap();
+            let held = size_of_val(&fine.points[..]) + size_of_val(&fine.faces[..]);
+            assert!(level.dense_memory(depth).unwrap() >= held as u64, "{name}");
+        }
+    }
+}
+
+/// Limits of all vertices, grid by grid, are those that a level gives.
+#[test]
+fn limits_are_those_of_the_levels() {
+    for (name, mesh) in cages::all() {
+        for depth in 1..=3 {
+            compare_limits(&name, &mesh, depth);
+        }
+    }
+}
+
+fn compare_limits(name: &str, mesh: &ControlMesh, depth: u32) {
+    let level = Level::new(mesh).unwrap();
+    let dense = level.dense(depth, u64::MAX).unwrap();
+    let (mut finest, mut points) = level.refine_points(&mesh.points);
+    for _ in 1..depth {
+        (finest, points) = finest.refine_points(&points);
+    }
+    let wanted = dense.from_levels(&finest, &limit_vertices(&finest, &points));
+    let (mut positions, mut normals) = (Vec::new(), Vec::new());
+    dense.limit(&mesh.points, &mut positions, &mut normals);
+    assert_eq!((positions.len(), normals.len()), (wanted.len(), wanted.len()));
+    for (v, wanted) in wanted.iter().enumerate() {
+        let gap = positions[v].distance(wanted.position) / mesh.size();
+        assert!(gap <= TOLERANCE, "{name}, {depth} steps, vertex {v}: {gap:e}");
+        if name == "pillow" {
+            // Its two sides are one: normals are differences of rounding errors.
+            continue;
+        }
+        let normal = wanted.normal.unwrap_or(Vec3::ZERO);
+        assert!(
+            normals[v].distance(normal) <= 1e-9,
+            "{name}, {depth} steps, vertex {v}: {normal:?} {:?}",
+            normals[v]
+        );
     }
 }

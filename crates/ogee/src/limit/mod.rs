@@ -8,6 +8,7 @@ mod corner;
 mod evaluate;
 mod evaluator;
 mod faces;
+mod grids;
 mod normals;
 mod out;
 mod pattern;

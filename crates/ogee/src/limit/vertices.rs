@@ -118,7 +118,7 @@ fn around(level: &Level, points: &[Vec3], v: VertexId) -> (Level, Vec<Vec3>, Ver
     (part.level, points, own)
 }
 
-fn masks_hold(level: &Level, v: VertexId) -> bool {
+pub(super) fn masks_hold(level: &Level, v: VertexId) -> bool {
     let topology = level.topology();
     let settled = |s: f64| s == 0.0 || s.is_infinite();
     if !settled(level.vertex_sharpness(v))
@@ -140,33 +140,73 @@ fn masks_hold(level: &Level, v: VertexId) -> bool {
     sharp > 1 || level.vertex_sharpness(v) == 0.0 && has_plane()
 }
 
+/// The points around a vertex, by the halfedges that leave it.
+pub(super) trait Around {
+    /// At the vertex itself.
+    fn own(&self) -> Vec3;
+    /// At the other end of the edge.
+    fn neighbour(&self, h: HalfedgeId) -> Vec3;
+    /// At the opposite corner of the quad on the left.
+    fn diagonal(&self, h: HalfedgeId) -> Vec3;
+    /// At the end of the quad's other edge.
+    fn next_neighbour(&self, h: HalfedgeId) -> Vec3;
+}
+
+struct OnLevel<'a>(&'a Level, &'a [Vec3], VertexId);
+
+impl OnLevel<'_> {
+    fn at(&self, v: VertexId) -> Vec3 {
+        self.1[v.index()]
+    }
+}
+
+impl Around for OnLevel<'_> {
+    fn own(&self) -> Vec3 {
+        self.at(self.2)
+    }
+    fn neighbour(&self, h: HalfedgeId) -> Vec3 {
+        self.at(self.0.topology().target(h))
+    }
+    fn diagonal(&self, h: HalfedgeId) -> Vec3 {
+        self.at(self.0.topology().target(self.0.topology().next(h)))
+    }
+    fn next_neighbour(&self, h: HalfedgeId) -> Vec3 {
+        self.at(self.0.topology().origin(self.0.topology().prev(h)))
+    }
+}
+
 fn by_masks(level: &Level, points: &[Vec3], v: VertexId) -> LimitVertex {
+    masks_of(level, v, &OnLevel(level, points, v))
+}
+
+/// The limit of a vertex whose masks hold, from the points around it; `level` says what kind of vertex it is.
+pub(super) fn masks_of(level: &Level, v: VertexId, around: &impl Around) -> LimitVertex {
     let topology = level.topology();
-    let at = |v: VertexId| points[v.index()];
+    let own = around.own();
     let sectors = level.sectors(v);
     let is_corner =
         level.vertex_sharpness(v) > 0.0 || sectors.len() + usize::from(topology.is_boundary(v)) > 2;
     let is_dart = !is_corner && sectors.len() == 1 && !topology.is_boundary(v);
-    let mut position = at(v);
+    let mut position = own;
     let mut normal = Vec3::ZERO;
     for sector in sectors {
         let halfedges: Vec<HalfedgeId> = level.sector_halfedges(sector).collect();
-        let mut edges: Vec<Vec3> = halfedges.iter().map(|&h| at(topology.target(h))).collect();
-        let diagonals: Vec<Vec3> = halfedges.iter().map(|&h| at(topology.target(topology.next(h)))).collect();
+        let mut edges: Vec<Vec3> = halfedges.iter().map(|&h| around.neighbour(h)).collect();
+        let diagonals: Vec<Vec3> = halfedges.iter().map(|&h| around.diagonal(h)).collect();
         let frame: Frame = if (sector.closed || is_dart) && topology.is_lens(v) {
-            Lens::new(level.scheme().lens, (!sector.closed).then_some(0)).frame(at(v), &edges, &diagonals)
+            Lens::new(level.scheme().lens, (!sector.closed).then_some(0)).frame(own, &edges, &diagonals)
         } else if sector.closed {
-            masks::smooth(at(v), &edges, &diagonals)
+            masks::smooth(own, &edges, &diagonals)
         } else if is_dart {
-            Dart::new(edges.len()).frame(at(v), &edges, &diagonals)
+            Dart::new(edges.len()).frame(own, &edges, &diagonals)
         } else {
-            edges.extend(halfedges.last().map(|&h| at(topology.origin(topology.prev(h)))));
-            if is_corner { masks::corner(at(v), &edges) } else { masks::crease(at(v), &edges, &diagonals) }
+            edges.extend(halfedges.last().map(|&h| around.next_neighbour(h)));
+            if is_corner { masks::corner(own, &edges) } else { masks::crease(own, &edges, &diagonals) }
         };
         position = frame.position;
         let side = frame.tangents[0].cross(frame.tangents[1]).normalized().unwrap_or(Vec3::ZERO);
         // The two sharp edges of a reflex corner span the plane the wrong way round.
-        let is_reflex = is_corner && side.dot(newell(at(v), &edges)) < 0.0;
+        let is_reflex = is_corner && side.dot(newell(own, &edges)) < 0.0;
         normal += if is_reflex { -side } else { side };
     }
     LimitVertex { position, normal: normal.normalized() }

@@ -125,3 +125,24 @@ pub(crate) fn chunks<T: Send, M>(
     let mut memory = memory();
     values.chunks_exact_mut(size).enumerate().for_each(|(i, chunk)| f(&mut memory, i, chunk));
 }
+
+/// [`chunks`] of two arrays side by side.
+pub(crate) fn chunk_pairs<T: Send, U: Send, M>(
+    first: &mut [T],
+    second: &mut [U],
+    size: usize,
+    memory: impl Fn() -> M + Sync + Send,
+    f: impl Fn(&mut M, usize, &mut [T], &mut [U]) + Sync + Send,
+) {
+    #[cfg(feature = "rayon")]
+    if first.len() > CHUNK {
+        use rayon::prelude::*;
+        let pairs = first.par_chunks_exact_mut(size).zip(second.par_chunks_exact_mut(size));
+        let calls = pairs.enumerate().with_min_len(CHUNK.div_ceil(size));
+        calls.for_each_init(memory, |memory, (i, (first, second))| f(memory, i, first, second));
+        return;
+    }
+    let mut memory = memory();
+    let pairs = first.chunks_exact_mut(size).zip(second.chunks_exact_mut(size));
+    pairs.enumerate().for_each(|(i, (first, second))| f(&mut memory, i, first, second));
+}

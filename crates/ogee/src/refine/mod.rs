@@ -11,6 +11,7 @@ mod uniform;
 
 pub(crate) use ahead::Ahead;
 pub use dense::DenseRefinement;
+pub(crate) use dense::Grids;
 pub use fine::{FineMesh, TooDeep};
 pub use step::Step;
 pub use uniform::Refinement;

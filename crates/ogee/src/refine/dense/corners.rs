@@ -21,7 +21,7 @@ pub(super) fn refine<C: Connectivity, T: Components>(rules: &Level, grids: &Grid
 /// The smooth rule, if it holds: between quads, in terms of the points around the vertex.
 #[inline]
 fn smooth<C: Connectivity, T: Components>(grids: &Grids<'_, C, T>, v: VertexId) -> Option<T> {
-    let base = grids.frame.base;
+    let base = &grids.frame.base;
     let first = base.outgoing(v)?;
     let (mut edges, mut diagonals) = (T::zero(), T::zero());
     let mut n = 0.0;
@@ -50,7 +50,7 @@ fn by_rule<C: Connectivity, T: Components>(rules: &Level, grids: &Grids<'_, C, T
     let mut value = T::zero();
     let [vertices, faces] = row.terms();
     for &(source, weight) in vertices {
-        let point = match spoke(grids.frame.base, v, VertexId(source)) {
+        let point = match spoke(&grids.frame.base, v, VertexId(source)) {
             Some(Spoke::Leaving(h)) => grids.frame.first(h),
             Some(Spoke::Arriving(h)) => grids.frame.last(h),
             // The vertex itself.

@@ -1,13 +1,13 @@
 //! The points inside quads: what is new there depends on nothing but the grid and its sides.
 
-use bytemuck::{cast_slice, cast_slice_mut};
+use bytemuck::cast_slice_mut;
 
 use super::grids::Grids;
 use super::kernel::{along, edge_row, vertex_row};
 use crate::math::simd::{Four, Kernel, dispatch};
 use crate::math::{Components, par};
+use crate::mesh::FaceId;
 use crate::mesh::connectivity::Connectivity;
-use crate::mesh::{FaceId, HalfedgeId};
 
 /// Refines the insides of all quads into `out`, `(2 side - 1)^2` points for each.
 pub(super) fn refine<C: Connectivity, T: Components>(grids: &Grids<'_, C, T>, out: &mut [T]) {
@@ -18,24 +18,24 @@ pub(super) fn refine<C: Connectivity, T: Components>(grids: &Grids<'_, C, T>, ou
 }
 
 /// What a thread needs to refine one grid after the other.
-#[derive(Debug)]
-struct Memory<T> {
-    /// One row of the grid.
-    row: Vec<T>,
-    /// All rows, refined along themselves.
-    rows: Vec<T>,
-}
+#[derive(Debug, Default)]
+struct Memory(Vec<f64>);
 
-impl<T> Default for Memory<T> {
-    fn default() -> Memory<T> {
-        Memory { row: Vec::new(), rows: Vec::new() }
+impl Memory {
+    /// Room for a row of a grid of `n` cells a side, and for all rows refined along themselves, one number more each.
+    #[inline(always)]
+    fn rows(&mut self, n: usize, count: usize) -> (&mut [f64], &mut [f64]) {
+        let row = (n + 1) * count + 1;
+        let rows = (n + 1) * (2 * n - 1) * count + 1;
+        self.0.resize(row + rows, 0.0);
+        self.0.split_at_mut(row)
     }
 }
 
 struct Refine<'a, C, T> {
     grids: &'a Grids<'a, C, T>,
     face: FaceId,
-    memory: &'a mut Memory<T>,
+    memory: &'a mut Memory,
     out: &'a mut [T],
 }
 
@@ -45,35 +45,13 @@ impl<C: Connectivity, T: Components> Kernel for Refine<'_, C, T> {
     #[inline(always)]
     fn run<V: Four>(self) {
         let Refine { grids, face, memory, out } = self;
-        let frame = &grids.frame;
-        let points = grids.interior(face);
-        let n = frame.side;
-        let width = 2 * n - 1;
-        memory.row.resize(n + 1, T::zero());
-        memory.rows.resize((n + 1) * width, T::zero());
-        let h = 4 * face.0;
-        let [h0, h1, h2, h3] = [HalfedgeId(h), HalfedgeId(h + 1), HalfedgeId(h + 2), HalfedgeId(h + 3)];
-        let corner = |h: HalfedgeId| frame.corner(frame.base.origin(h));
-        let [first, last] = [frame.side(h0), frame.side(h2)];
-        let row = &mut memory.row[..n + 1];
-        let rows = &mut memory.rows[..(n + 1) * width];
-        row[0] = corner(h0);
-        frame.side(h3).copy(true, &mut row[1..n]);
-        row[n] = corner(h3);
-        along(row, &mut rows[..width]);
-        for i in 1..n {
-            row[0] = first.at(i);
-            row[1..n].copy_from_slice(&points[(i - 1) * (n - 1)..i * (n - 1)]);
-            row[n] = last.at(n - i);
-            along(row, &mut rows[i * width..(i + 1) * width]);
+        let (n, count) = (grids.frame.side, T::COUNT);
+        let width = (2 * n - 1) * count;
+        let (row, rows) = memory.rows(n, count);
+        for i in 0..=n {
+            grids.row(face, i, cast_slice_mut(&mut row[..(n + 1) * count]));
+            along::<V, T>(row, &mut rows[i * width..(i + 1) * width + 1]);
         }
-        row[0] = corner(h1);
-        frame.side(h1).copy(false, &mut row[1..n]);
-        row[n] = corner(h2);
-        along(row, &mut rows[n * width..]);
-
-        let rows: &[f64] = cast_slice(rows);
-        let width = width * T::COUNT;
         let row = |m: usize| &rows[m * width..(m + 1) * width];
         let out: &mut [f64] = cast_slice_mut(out);
         for m in 0..n {

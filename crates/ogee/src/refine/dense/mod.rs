@@ -13,4 +13,5 @@ mod numbering;
 mod plan;
 mod sides;
 
+pub(crate) use grids::Grids;
 pub use plan::DenseRefinement;

@@ -5,8 +5,8 @@ use std::borrow::Cow;
 use super::grids::{Frame, Grids};
 use super::numbering::Numbering;
 use super::{corners, interiors, levels, sides};
-use crate::math::{Components, pages, par};
-use crate::mesh::connectivity::Connectivity;
+use crate::math::{Components, Vec3, pages, par};
+use crate::mesh::connectivity::{Connectivity, Quads};
 use crate::mesh::{FaceId, HalfedgeId};
 use crate::refine::TooDeep;
 use crate::refine::split::child_quad;
@@ -61,7 +61,7 @@ impl Level {
     /// If `depth` is 0: a cage is no mesh of quads.
     pub fn dense(&self, depth: u32, memory: u64) -> Result<DenseRefinement<'_>, TooDeep> {
         assert!(depth > 0, "a fine mesh is at least one step away");
-        self.check_depth(depth, memory)?;
+        self.check_dense(depth, memory)?;
         let quads = self.topology().is_quads();
         if depth == 1 && !quads {
             return Ok(DenseRefinement { cage: self, way: Way::Step });
@@ -69,8 +69,7 @@ impl Level {
         let (base, steps) =
             if quads { (Cow::Borrowed(self), depth) } else { (Cow::Owned(self.split()), depth - 1) };
         let numbering = Numbering::new(base.topology(), 1 << steps);
-        let spreads = base.has_slices() || base.is_chaikin() && base.semi_sharp_edges().next().is_some();
-        let way = if spreads {
+        let way = if base.spreads() {
             let mut levels = vec![base.split()];
             for _ in 1..steps {
                 let next = levels[levels.len() - 1].split();
@@ -91,6 +90,74 @@ impl Level {
         Ok(DenseRefinement { cage: self, way })
     }
 }
+
+impl Level {
+    /// What `depth` steps of dense refinement need at most, in bytes, points of three numbers: the last level and, before its
+    /// quads are written, the level before; and the first level where it is the base. `None` if ids would not fit.
+    pub fn dense_memory(&self, depth: u32) -> Option<u64> {
+        const POINT: u128 = size_of::<Vec3>() as u128;
+        const QUAD: u128 = size_of::<[u32; 4]>() as u128;
+        let topology = self.topology();
+        let [vertices, faces, edges, halfedges] = [
+            topology.vertex_count(),
+            topology.face_count(),
+            topology.edge_count(),
+            topology.halfedge_count(),
+        ]
+        .map(|count| count as u128);
+        let quads = topology.is_quads();
+        if depth == 0 || depth > 32 {
+            return (depth == 0).then_some(0);
+        }
+        // The base: the cage, or its first level.
+        let (steps, [vertices, faces, edges], base) = if quads {
+            (depth, [vertices, faces, edges], 0)
+        } else {
+            let counts = [vertices + faces + edges, halfedges, 2 * edges + halfedges];
+            (depth - 1, counts, halfedges * BASE)
+        };
+        let points = |step: u32| {
+            let inside = (1 << step) - 1;
+            vertices + faces * inside * inside + edges * inside
+        };
+        let spreads = self.spreads();
+        // Levels have ids of halfedges as well.
+        let of_levels = if spreads {
+            faces << (2 * steps)
+        } else if quads || depth == 1 {
+            0
+        } else {
+            faces
+        };
+        if points(steps).max(4 * of_levels) >= u128::from(u32::MAX) {
+            return None;
+        }
+        let before = (0..steps).rev().take(2).map(points).sum::<u128>() * POINT;
+        let levels = if spreads { of_levels * LEVEL } else { 0 };
+        let bytes = points(steps) * POINT + levels + base + before.max((faces << (2 * steps)) * QUAD);
+        u64::try_from(bytes).ok()
+    }
+
+    /// True if rules at corners of the base spread into edges and faces from step to step.
+    fn spreads(&self) -> bool {
+        self.has_slices() || self.is_chaikin() && self.semi_sharp_edges().next().is_some()
+    }
+
+    fn check_dense(&self, depth: u32, memory: u64) -> Result<(), TooDeep> {
+        let fits = |depth: u32| self.dense_memory(depth).is_some_and(|bytes| bytes <= memory);
+        if fits(depth) {
+            return Ok(());
+        }
+        let faces = (self.topology().halfedge_count() as u128) << (2 * (depth.min(46) - 1));
+        let deepest = (0..depth.min(32)).rev().find(|&shallower| fits(shallower)).unwrap_or(0);
+        Err(TooDeep { depth, faces, deepest })
+    }
+}
+
+/// What connectivity of a base that is not the cage costs, in bytes a quad, and its points twice.
+const BASE: u128 = 60 + 48;
+/// What levels cost that are made after all, in bytes a face of the last one: half of it for the last, and for all before.
+const LEVEL: u128 = 120;
 
 impl DenseRefinement<'_> {
     /// Number of vertices of the last level.
@@ -139,9 +206,62 @@ impl DenseRefinement<'_> {
                 }
             }
             Way::Levels { base, levels, .. } => {
-                levels::points(base, levels, &self.base_values(base, cage), out);
+                let mut values = self.base_values(base, cage).into_owned();
+                let mut level: &Level = base;
+                for next in levels {
+                    let mut refined = Vec::new();
+                    level.child_points(&values, &mut refined);
+                    (values, level) = (refined, next);
+                }
+                levels::in_grids(base, level, &values, out);
             }
         }
+    }
+
+    /// The cage.
+    pub(crate) fn cage(&self) -> &Level {
+        self.cage
+    }
+
+    /// Number of steps from the cage.
+    pub(crate) fn depth(&self) -> u32 {
+        match &self.way {
+            Way::Step => 1,
+            Way::Grids { base, numbering, .. } | Way::Levels { base, numbering, .. } => {
+                numbering.side.ilog2() + u32::from(matches!(base, Cow::Owned(_)))
+            }
+        }
+    }
+
+    /// The base with its rules after the last step, and the grids that points make which are there already; `None` where there are no
+    /// grids but levels.
+    pub(crate) fn grids<'g, T>(
+        &'g self,
+        points: &'g [T],
+    ) -> Option<(Cow<'g, Level>, Grids<'g, Quads<'g>, T>)> {
+        let Way::Grids { base, numbering, steps, .. } = &self.way else { return None };
+        let [corners, interiors, sides] = numbering.parts(points);
+        let frame = Frame { base: base.topology().as_quads()?, side: numbering.side, corners, sides };
+        let is_settled =
+            base.semi_sharp_edges().next().is_none() && base.semi_sharp_vertices().next().is_none();
+        let rules = if is_settled { Cow::Borrowed(&**base) } else { Cow::Owned(base.faded(*steps)) };
+        Some((rules, Grids { frame, interiors }))
+    }
+
+    /// Values at the vertices of the last level in the order of grids, from those in the order of levels. `finest` is that level, as
+    /// [`Refinement`](crate::Refinement) and [`Level::refine_points`] make it.
+    ///
+    /// # Panics
+    /// If `finest` is another level.
+    pub fn from_levels<T: Copy + Send + Sync>(&self, finest: &Level, values: &[T]) -> Vec<T> {
+        let mut out = Vec::new();
+        match &self.way {
+            Way::Step => out.extend_from_slice(&values[..self.vertex_count()]),
+            Way::Grids { base, .. } | Way::Levels { base, .. } => {
+                levels::in_grids(base, finest, values, &mut out)
+            }
+        }
+        out
     }
 
     fn base_values<'v, T: Components>(&self, base: &Cow<'_, Level>, cage: &'v [T]) -> Cow<'v, [T]> {
@@ -180,7 +300,7 @@ impl DenseRefinement<'_> {
     }
 }
 
-fn refine<C: Connectivity, T: Components>(
+fn refine<C: Connectivity + Copy, T: Components>(
     base: &Level,
     quads: &C,
     numbering: &Numbering,
@@ -197,7 +317,7 @@ fn refine<C: Connectivity, T: Components>(
     for side in (1..).map(|step| 1 << step).take_while(|&side| side < numbering.side) {
         let level = Numbering { side, ..*numbering };
         let [corners, interiors, sides] = level.parts(&points);
-        let grids = Grids { frame: Frame { base: quads, side, corners, sides }, interiors };
+        let grids = Grids { frame: Frame { base: *quads, side, corners, sides }, interiors };
         rules = faded.next().unwrap_or(rules);
         if 2 * side == numbering.side {
             refine_once(rules, &grids, numbering, out);

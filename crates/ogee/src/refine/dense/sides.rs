@@ -12,17 +12,31 @@ use crate::rules::{EdgeRule, Level};
 
 /// Refines the insides of all edges into `out`, `2 side - 1` points for each.
 pub(super) fn refine<C: Connectivity, T: Components>(rules: &Level, grids: &Grids<'_, C, T>, out: &mut [T]) {
-    par::chunks(out, 2 * grids.frame.side - 1, Vec::new, |row, e, out| {
+    par::chunks(out, 2 * grids.frame.side - 1, Memory::default, |memory, e, out| {
         let h = grids.frame.base.side(EdgeId(e as u32));
-        dispatch(Refine { grids, rule: rules.edge_rule(h), halfedge: h, row, out });
+        dispatch(Refine { grids, rule: rules.edge_rule(h), halfedge: h, memory, out });
     });
+}
+
+/// What a thread needs to refine one row after the other.
+#[derive(Debug, Default)]
+struct Memory(Vec<f64>);
+
+impl Memory {
+    /// Room for a row of `n` gaps, and for the same refined, one number more each.
+    #[inline(always)]
+    fn rows(&mut self, n: usize, count: usize) -> (&mut [f64], &mut [f64]) {
+        let row = (n + 1) * count + 1;
+        self.0.resize(row + (2 * n - 1) * count + 1, 0.0);
+        self.0.split_at_mut(row)
+    }
 }
 
 struct Refine<'a, C, T> {
     grids: &'a Grids<'a, C, T>,
     rule: EdgeRule,
     halfedge: HalfedgeId,
-    row: &'a mut Vec<T>,
+    memory: &'a mut Memory,
     out: &'a mut [T],
 }
 
@@ -31,9 +45,10 @@ impl<C: Connectivity, T: Components> Kernel for Refine<'_, C, T> {
 
     #[inline(always)]
     fn run<V: Four>(self) {
-        let Refine { grids, rule, halfedge: h, row, out } = self;
+        let Refine { grids, rule, halfedge: h, memory, out } = self;
         let n = grids.frame.side;
-        row.resize(n + 1, T::zero());
+        let (numbers, made) = memory.rows(n, T::COUNT);
+        let row: &mut [T] = cast_slice_mut(&mut numbers[..(n + 1) * T::COUNT]);
         row[0] = grids.frame.corner(grids.frame.base.origin(h));
         grids.frame.side(h).copy(false, &mut row[1..n]);
         row[n] = grids.frame.corner(grids.frame.base.target(h));
@@ -50,6 +65,7 @@ impl<C: Connectivity, T: Components> Kernel for Refine<'_, C, T> {
             grids.add_row_beside(h, false, beside, row);
             grids.add_row_beside(twin, true, beside, row);
         }
-        along(row, out);
+        along::<V, T>(numbers, made);
+        cast_slice_mut(out).copy_from_slice(&made[..(2 * n - 1) * T::COUNT]);
     }
 }
