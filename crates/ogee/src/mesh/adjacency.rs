@@ -417,19 +417,20 @@ mod tests {
         }
     }
 
-    /// More edges at a vertex than a list takes, sound, with a face too many, and with one turned over.
+    /// More edges at a vertex than a list takes: sound, with a third side at one of them, and with a face turned over.
     #[test]
     fn a_vertex_of_many_faces() {
         let disk = shapes::disk(300, 1);
+        let vertices = disk.points.len() as u32;
         for f in [0, 40, 299] {
-            let mut doubled = disk.faces.clone();
-            doubled.push(disk.faces.face(f));
+            let mut winged = disk.faces.clone();
+            winged.push(&[0, disk.faces.face(f)[1], vertices, vertices + 1]);
             let turned = disk.faces.iter().enumerate().map(|(g, face)| {
                 let [a, b, c, d] = face.try_into().unwrap();
                 if f == g { [d, c, b, a] } else { [a, b, c, d] }
             });
             compare(&disk.faces, disk.points.len());
-            compare(&doubled, disk.points.len());
+            compare(&winged, disk.points.len() + 2);
             compare(&turned.collect(), disk.points.len());
         }
     }
