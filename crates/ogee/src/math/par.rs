@@ -3,6 +3,8 @@
 //! Every output is computed by one call and written once, so results do not depend on the schedule or on the
 //! number of threads.
 
+use std::sync::atomic::{AtomicU32, Ordering};
+
 use super::pages;
 
 /// Outputs computed by one thread in one go: large enough that handing out work costs nothing.
@@ -145,4 +147,47 @@ pub(crate) fn chunk_pairs<T: Send, U: Send, M>(
     let mut memory = memory();
     let pairs = first.chunks_exact_mut(size).zip(second.chunks_exact_mut(size));
     pairs.enumerate().for_each(|(i, (first, second))| f(&mut memory, i, first, second));
+}
+
+/// True if `f(0), f(1), .. f(count - 1)` all are. Runs of them are asked for without a branch after each.
+pub(crate) fn all(count: usize, f: impl Fn(usize) -> bool + Sync + Send) -> bool {
+    const RUN: usize = 1 << 13;
+    let run = |r: usize| (r * RUN..count.min((r + 1) * RUN)).fold(true, |all, i| all & f(i));
+    map(count.div_ceil(RUN), run).into_iter().all(|all| all)
+}
+
+/// How many tasks run at the same time.
+pub(crate) fn threads() -> usize {
+    #[cfg(feature = "rayon")]
+    {
+        rayon::current_num_threads()
+    }
+    #[cfg(not(feature = "rayon"))]
+    1
+}
+
+/// Numbers that several tasks write, each its own, anywhere; or all that write one the same. A task does not read what
+/// another is about to change.
+pub(crate) struct Numbers(Vec<AtomicU32>);
+
+impl Numbers {
+    /// So many times the same number.
+    pub(crate) fn new(count: usize, value: u32) -> Numbers {
+        Numbers(collect(count, |_| AtomicU32::new(value)))
+    }
+
+    #[inline]
+    pub(crate) fn get(&self, i: u32) -> u32 {
+        self.0[i as usize].load(Ordering::Relaxed)
+    }
+
+    #[inline]
+    pub(crate) fn set(&self, i: u32, value: u32) {
+        self.0[i as usize].store(value, Ordering::Relaxed);
+    }
+
+    /// The numbers, in the memory that they are in.
+    pub(crate) fn into_vec(self) -> Vec<u32> {
+        self.0.into_iter().map(AtomicU32::into_inner).collect()
+    }
 }

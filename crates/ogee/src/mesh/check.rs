@@ -1,8 +1,8 @@
 //! Every defect a control mesh can have, and what is worth a note.
 
 use super::meetings::check_meetings;
-use super::topology::{NONE, pair_halfedges};
-use super::{ControlMesh, FaceId, LensShape, VertexId};
+use super::topology::NONE;
+use super::{ControlMesh, FaceId, HalfedgeId, LensShape, Topology, VertexId};
 
 /// Why a control mesh was refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -138,8 +138,17 @@ pub struct Note {
     pub place: Option<Place>,
 }
 
-/// Every defect of a mesh, in the order faces, edges, vertices, tags. Costs a sort of the edges.
+/// Every defect of a mesh, in the order faces, edges, vertices, tags. Costs its connectivity, and a sort of the edges where
+/// that is faulty.
 pub fn check(mesh: &ControlMesh) -> Vec<Defect> {
+    match Topology::pair(mesh) {
+        Some(topology) => check_tags(mesh, &topology),
+        None => check_all(mesh),
+    }
+}
+
+/// Every defect of a mesh whose faces or points are faulty.
+pub(super) fn check_all(mesh: &ControlMesh) -> Vec<Defect> {
     let mut defects = Vec::new();
     if mesh.faces.is_empty() {
         defects.push(Defect::NoFaces);
@@ -156,7 +165,18 @@ pub fn check(mesh: &ControlMesh) -> Vec<Defect> {
             defects.push(Defect::NotFinite { vertex: VertexId(v as u32) });
         }
     }
-    check_tags(mesh, &mut defects);
+    check_creases(mesh, edges_of(mesh), &mut defects);
+    check_other_tags(mesh, &mut defects);
+    defects
+}
+
+/// Every defect of a mesh whose faces and points are sound.
+pub(crate) fn check_tags(mesh: &ControlMesh, topology: &Topology) -> Vec<Defect> {
+    let mut defects = Vec::new();
+    let vertices = topology.vertex_count() as u32;
+    let is_edge = |[a, b]: [u32; 2]| a < vertices && topology.find_edge([VertexId(a), VertexId(b)]).is_some();
+    check_creases(mesh, is_edge, &mut defects);
+    check_other_tags(mesh, &mut defects);
     if !mesh.meetings.is_empty() && defects.is_empty() {
         check_meetings(mesh, &mut defects);
     }
@@ -227,25 +247,24 @@ fn check_fans(mesh: &ControlMesh, sound: &[bool], defects: &mut Vec<Defect>) {
     for (_, corners) in mesh.faces.iter().enumerate().filter(|&(f, _)| sound[f]) {
         faces.push(corners);
     }
-    let pairs = pair_halfedges(&faces, mesh.points.len());
-    let next_around = pairs.previous_twins(&faces);
+    let topology = Topology::of_part(&faces, mesh.points.len());
     let mut outgoing: Vec<(u32, u32)> =
         faces.corners().iter().enumerate().map(|(h, &v)| (v, h as u32)).collect();
     outgoing.sort_unstable();
-    let mut seen = vec![false; next_around.len()];
+    let mut seen = vec![false; topology.halfedge_count()];
     for fan in outgoing.chunk_by(|x, y| x.0 == y.0) {
         let mut fans = 0;
         // Open fans first, from their clockwise ends; what is left then are closed ones.
-        let open = fan.iter().filter(|&&(_, h)| pairs.twin[h as usize] == NONE);
+        let open = fan.iter().filter(|&&(_, h)| topology.twin(HalfedgeId(h)).is_none());
         for &(_, start) in open.chain(fan) {
             if seen[start as usize] {
                 continue;
             }
             fans += 1;
-            let mut h = start;
-            while h != NONE && !seen[h as usize] {
-                seen[h as usize] = true;
-                h = next_around[h as usize];
+            let mut around = Some(HalfedgeId(start));
+            while let Some(h) = around.filter(|h| !seen[h.index()]) {
+                seen[h.index()] = true;
+                around = topology.twin(topology.prev(h));
             }
         }
         if fans > 1 {
@@ -254,10 +273,11 @@ fn check_fans(mesh: &ControlMesh, sound: &[bool], defects: &mut Vec<Defect>) {
     }
 }
 
-/// Tags that name what is not there, sharpness that is no number, rules that have no limit worth having.
-fn check_tags(mesh: &ControlMesh, defects: &mut Vec<Defect>) {
+/// The edges of a mesh of any faces, by their ends in either order.
+fn edges_of(mesh: &ControlMesh) -> impl Fn([u32; 2]) -> bool + use<> {
+    let mut edges: Vec<(u32, u32)> = Vec::new();
     if !mesh.creases.is_empty() {
-        let mut edges: Vec<(u32, u32)> = Vec::with_capacity(mesh.faces.corners().len());
+        edges.reserve(mesh.faces.corners().len());
         for corners in mesh.faces.iter() {
             for (k, &a) in corners.iter().enumerate() {
                 let b = corners[(k + 1) % corners.len()];
@@ -265,16 +285,25 @@ fn check_tags(mesh: &ControlMesh, defects: &mut Vec<Defect>) {
             }
         }
         edges.sort_unstable();
-        for crease in &mesh.creases {
-            let [a, b] = crease.vertices;
-            if edges.binary_search(&(a.min(b), a.max(b))).is_err() {
-                defects.push(Defect::CreaseOffEdge { a, b });
-            }
-            if crease.sharpness.value().is_nan() {
-                defects.push(Defect::SharpnessNotANumber { vertex: a });
-            }
+    }
+    move |[a, b]| edges.binary_search(&(a.min(b), a.max(b))).is_ok()
+}
+
+/// Creases that name no edge, or whose sharpness is no number.
+fn check_creases(mesh: &ControlMesh, is_edge: impl Fn([u32; 2]) -> bool, defects: &mut Vec<Defect>) {
+    for crease in &mesh.creases {
+        let [a, b] = crease.vertices;
+        if !is_edge([a, b]) {
+            defects.push(Defect::CreaseOffEdge { a, b });
+        }
+        if crease.sharpness.value().is_nan() {
+            defects.push(Defect::SharpnessNotANumber { vertex: a });
         }
     }
+}
+
+/// Other tags that name what is not there, sharpness that is no number, rules that have no limit worth having.
+fn check_other_tags(mesh: &ControlMesh, defects: &mut Vec<Defect>) {
     let count = mesh.points.len() as u32;
     for corner in &mesh.corners {
         if corner.vertex >= count {

@@ -1,5 +1,6 @@
 //! `Connectivity`: who meets whom, whatever the layout.
 
+use super::cycles::{FaceCycles, QuadCycles};
 use super::topology::{Layout, NONE};
 use super::{EdgeId, FaceId, HalfedgeId, Topology, VertexId};
 
@@ -146,11 +147,11 @@ impl Connectivity for Quads<'_> {
     }
     #[inline]
     fn next(&self, h: HalfedgeId) -> HalfedgeId {
-        HalfedgeId((h.0 & !3) | ((h.0 + 1) & 3))
+        HalfedgeId(QuadCycles.next(h.0))
     }
     #[inline]
     fn prev(&self, h: HalfedgeId) -> HalfedgeId {
-        HalfedgeId((h.0 & !3) | (h.0.wrapping_sub(1) & 3))
+        HalfedgeId(QuadCycles.prev(h.0))
     }
     #[inline]
     fn face(&self, h: HalfedgeId) -> FaceId {

@@ -5,8 +5,11 @@
 //! rule of Dupuy and Vanhoey, A Halfedge Refinement Rule for Parallel Catmull-Clark Subdivision (2021); see
 //! `refine/split.rs`.
 
-use super::check::{TopologyError, check};
+use super::adjacency::Adjacency;
+use super::check::{TopologyError, check_all};
+use super::cycles::{FaceCycles, PolygonCycles, QuadCycles};
 use super::{ControlMesh, EdgeId, FaceId, FaceList, HalfedgeId, VertexId};
+use crate::math::{Vec3, pages, par};
 
 /// Stored where there is no twin, no halfedge: never a valid id.
 pub(crate) const NONE: u32 = u32::MAX;
@@ -71,40 +74,38 @@ impl Valence {
 impl Topology {
     /// The connectivity of a mesh.
     ///
-    /// Costs one pass over the corners and one bucket sort.
+    /// Costs a few passes over the corners, on all cores, and hardly any memory beside the result.
     ///
     /// # Errors
     /// If the mesh has any defect; then all of them are named.
     pub fn new(mesh: &ControlMesh) -> Result<Topology, TopologyError> {
-        Topology::pair(mesh).ok_or_else(|| TopologyError { defects: check(mesh) })
+        Topology::pair(mesh).ok_or_else(|| TopologyError { defects: check_all(mesh) })
     }
 
-    /// The arrays, or nothing at the first sign of a defect.
-    fn pair(mesh: &ControlMesh) -> Option<Topology> {
-        let faces = &mesh.faces;
-        let vertices = mesh.points.len();
-        let sound = !faces.is_empty()
-            && faces.corners().len() < NONE as usize
-            && faces.corners().iter().all(|&v| (v as usize) < vertices)
-            && faces.iter().all(has_distinct_corners)
-            && mesh.points.iter().all(|p| p.is_finite());
-        if !sound {
+    /// The connectivity of sound faces, or nothing at the first sign of a defect.
+    pub(super) fn pair(mesh: &ControlMesh) -> Option<Topology> {
+        let (faces, vertices) = (&mesh.faces, mesh.points.len());
+        let countable = !faces.is_empty() && faces.corners().len() < NONE as usize;
+        if !countable {
             return None;
         }
-        let pairs = pair_halfedges(faces, vertices);
-        if !pairs.manifold {
-            return None;
-        }
-        let mut topology = Topology::unchecked(faces, vertices, pairs);
-        topology.choose_outgoing().then_some(topology)
+        par::stay(faces.corners().len(), || {
+            if !(are_sound(faces, vertices) && are_finite(&mesh.points)) {
+                return None;
+            }
+            let (layout, origin) = (Layout::new(faces), copy(faces.corners()));
+            let adjacency = layout.adjacency(&origin, vertices)?;
+            adjacency.single_fans.then(|| Topology::from_parts(origin, adjacency, layout))
+        })
     }
 
     /// The connectivity of faces taken out of a sound mesh. On the rim a vertex may belong to several fans; its ring
     /// is then one of them.
     pub(crate) fn of_part(faces: &FaceList, vertices: usize) -> Topology {
-        let mut topology = Topology::unchecked(faces, vertices, pair_halfedges(faces, vertices));
-        topology.choose_outgoing();
-        topology
+        let (layout, origin) = (Layout::new(faces), copy(faces.corners()));
+        let adjacency =
+            layout.adjacency(&origin, vertices).expect("edges of a part of a sound mesh are sound");
+        Topology::from_parts(origin, adjacency, layout)
     }
 
     /// The same faces over other vertices, cut along some edges.
@@ -112,75 +113,23 @@ impl Topology {
         &self,
         origin: Vec<u32>,
         vertices: usize,
-        seam: impl Fn(HalfedgeId) -> bool,
+        seam: impl Fn(HalfedgeId) -> bool + Sync + Send,
     ) -> Topology {
         let twin = |h: usize| if seam(HalfedgeId(h as u32)) { NONE } else { self.twin[h] };
-        let mut topology = Topology {
-            origin,
-            twin: (0..self.twin.len()).map(twin).collect(),
-            edge: Vec::new(),
-            first_side: Vec::new(),
-            outgoing: vec![NONE; vertices],
-            lenses: Vec::new(),
-            layout: self.layout.clone(),
-        };
-        topology.number_edges();
-        topology.choose_outgoing();
-        topology
-    }
-
-    /// All arrays but `outgoing`.
-    fn unchecked(faces: &FaceList, vertices: usize, pairs: Pairing) -> Topology {
-        let layout = if faces.iter().all(|face| face.len() == 4) {
-            Layout::Quads
-        } else {
-            let face =
-                faces.iter().enumerate().flat_map(|(f, corners)| corners.iter().map(move |_| f as u32));
-            Layout::Polygons { starts: faces.starts().to_vec(), face: face.collect() }
-        };
-        let mut topology = Topology {
-            origin: faces.corners().to_vec(),
-            twin: pairs.twin,
-            edge: Vec::new(),
-            first_side: Vec::new(),
-            outgoing: vec![NONE; vertices],
-            lenses: Vec::new(),
-            layout,
-        };
-        topology.number_edges();
-        topology
-    }
-
-    fn number_edges(&mut self) {
-        let mut edge = vec![NONE; self.twin.len()];
-        let mut first_side = Vec::new();
-        for (h, &twin) in self.twin.iter().enumerate() {
-            // A twin with a smaller number was met first; `NONE` is greater than all.
-            if (twin as usize) < h {
-                edge[h] = edge[twin as usize];
-            } else {
-                edge[h] = first_side.len() as u32;
-                first_side.push(h as u32);
+        let twin = par::collect(self.twin.len(), twin);
+        let layout = self.layout.clone();
+        let adjacency = match &layout {
+            Layout::Quads => Adjacency::with_twins(QuadCycles, &origin, vertices, twin),
+            Layout::Polygons { starts, face } => {
+                Adjacency::with_twins(PolygonCycles { starts, face }, &origin, vertices, twin)
             }
-        }
-        self.edge = edge;
-        self.first_side = first_side;
+        };
+        Topology::from_parts(origin, adjacency, layout)
     }
 
-    /// Fills `outgoing` and `lenses`; false if the faces of some vertex form more than one fan.
-    fn choose_outgoing(&mut self) -> bool {
-        let mut degree = vec![0u32; self.outgoing.len()];
-        for (h, &v) in self.origin.iter().enumerate() {
-            let v = v as usize;
-            degree[v] += 1;
-            if self.outgoing[v] == NONE || self.twin[h] == NONE {
-                self.outgoing[v] = h as u32;
-            }
-        }
-        let is_lens = |&v: &u32| degree[v as usize] == 2 && !self.is_boundary(VertexId(v));
-        self.lenses = (0..self.outgoing.len() as u32).filter(is_lens).collect();
-        (0..self.outgoing.len())
-            .all(|v| self.outgoing[v] == NONE || self.ring(VertexId(v as u32)).count() == degree[v] as usize)
+    fn from_parts(origin: Vec<u32>, adjacency: Adjacency, layout: Layout) -> Topology {
+        let Adjacency { twin, edge, first_side, outgoing, lenses, single_fans: _ } = adjacency;
+        Topology { origin, twin, edge, first_side, outgoing, lenses, layout }
     }
 
     /// Number of vertices, isolated ones included.
@@ -246,25 +195,19 @@ impl Topology {
     /// The next halfedge of the same face.
     #[inline]
     pub fn next(&self, h: HalfedgeId) -> HalfedgeId {
-        match &self.layout {
-            Layout::Quads => HalfedgeId((h.0 & !3) | ((h.0 + 1) & 3)),
-            Layout::Polygons { starts, face } => {
-                let f = face[h.index()] as usize;
-                HalfedgeId(if h.0 + 1 == starts[f + 1] { starts[f] } else { h.0 + 1 })
-            }
-        }
+        HalfedgeId(match &self.layout {
+            Layout::Quads => QuadCycles.next(h.0),
+            Layout::Polygons { starts, face } => PolygonCycles { starts, face }.next(h.0),
+        })
     }
 
     /// The previous halfedge of the same face.
     #[inline]
     pub fn prev(&self, h: HalfedgeId) -> HalfedgeId {
-        match &self.layout {
-            Layout::Quads => HalfedgeId((h.0 & !3) | (h.0.wrapping_sub(1) & 3)),
-            Layout::Polygons { starts, face } => {
-                let f = face[h.index()] as usize;
-                HalfedgeId(if h.0 == starts[f] { starts[f + 1] - 1 } else { h.0 - 1 })
-            }
-        }
+        HalfedgeId(match &self.layout {
+            Layout::Quads => QuadCycles.prev(h.0),
+            Layout::Polygons { starts, face } => PolygonCycles { starts, face }.prev(h.0),
+        })
     }
 
     /// The face on the left of a halfedge.
@@ -309,6 +252,15 @@ impl Topology {
         std::iter::successors(first, move |&h| self.twin(self.prev(h)).filter(|&next| Some(next) != first))
     }
 
+    /// The halfedge between two vertices, in either direction.
+    pub(crate) fn find_edge(&self, [a, b]: [VertexId; 2]) -> Option<HalfedgeId> {
+        self.ring(a).find_map(|h| {
+            let before = self.prev(h);
+            let is_it = self.target(h) == b;
+            is_it.then_some(h).or((self.origin(before) == b).then_some(before))
+        })
+    }
+
     /// True if the vertex lies on a boundary.
     #[inline]
     pub fn is_boundary(&self, v: VertexId) -> bool {
@@ -343,10 +295,46 @@ impl Topology {
     }
 }
 
+impl Layout {
+    fn new(faces: &FaceList) -> Layout {
+        if faces.starts().iter().enumerate().all(|(f, &start)| start as usize == 4 * f) {
+            return Layout::Quads;
+        }
+        let mut face = pages::vector(faces.corners().len());
+        for (f, corners) in faces.iter().enumerate() {
+            face.extend(corners.iter().map(|_| f as u32));
+        }
+        Layout::Polygons { starts: copy(faces.starts()), face }
+    }
+
+    fn adjacency(&self, origin: &[u32], vertices: usize) -> Option<Adjacency> {
+        match self {
+            Layout::Quads => Adjacency::new(QuadCycles, origin, vertices),
+            Layout::Polygons { starts, face } => {
+                Adjacency::new(PolygonCycles { starts, face }, origin, vertices)
+            }
+        }
+    }
+}
+
+fn copy(numbers: &[u32]) -> Vec<u32> {
+    let mut out = pages::vector(numbers.len());
+    out.extend_from_slice(numbers);
+    out
+}
+
+/// True if all corners name vertices, those of a face different ones, and there are three at least.
+fn are_sound(faces: &FaceList, vertices: usize) -> bool {
+    par::all(faces.len(), |f| {
+        let face = faces.face(f);
+        face.iter().all(|&v| (v as usize) < vertices) && has_distinct_corners(face)
+    })
+}
+
 fn has_distinct_corners(face: &[u32]) -> bool {
     match *face {
-        [a, b, c, d] => a != b && a != c && a != d && b != c && b != d && c != d,
-        [a, b, c] => a != b && a != c && b != c,
+        [a, b, c, d] => (a != b) & (a != c) & (a != d) & (b != c) & (b != d) & (c != d),
+        [a, b, c] => (a != b) & (a != c) & (b != c),
         [] | [_] | [_, _] => false,
         _ => {
             let mut sorted = face.to_vec();
@@ -356,70 +344,8 @@ fn has_distinct_corners(face: &[u32]) -> bool {
     }
 }
 
-/// What pairing finds: twins, and whether every edge had one side or two opposite ones.
-pub(crate) struct Pairing {
-    pub(crate) twin: Vec<u32>,
-    pub(crate) manifold: bool,
-}
-
-impl Pairing {
-    /// For each halfedge the next one counter-clockwise around its origin; `NONE` at the end of an open fan.
-    pub(crate) fn previous_twins(&self, faces: &FaceList) -> Vec<u32> {
-        let mut out = vec![NONE; self.twin.len()];
-        for f in 0..faces.len() {
-            let (start, end) = (faces.starts()[f], faces.starts()[f + 1]);
-            for h in start..end {
-                let prev = if h == start { end - 1 } else { h - 1 };
-                out[h as usize] = self.twin[prev as usize];
-            }
-        }
-        out
-    }
-}
-
-/// Finds the twin of every halfedge: halfedges are put into one bucket per smaller end, and matched inside it.
-pub(crate) fn pair_halfedges(faces: &FaceList, vertices: usize) -> Pairing {
-    let origin = faces.corners();
-    let mut target = vec![0u32; origin.len()];
-    for f in 0..faces.len() {
-        let (start, end) = (faces.starts()[f] as usize, faces.starts()[f + 1] as usize);
-        for h in start..end {
-            target[h] = origin[if h + 1 == end { start } else { h + 1 }];
-        }
-    }
-    let mut starts = vec![0u32; vertices + 1];
-    for (&a, &b) in origin.iter().zip(&target) {
-        starts[a.min(b) as usize + 1] += 1;
-    }
-    for v in 0..vertices {
-        starts[v + 1] += starts[v];
-    }
-    // (greater end, halfedge), by smaller end.
-    let mut cursor = starts.clone();
-    let mut bucket = vec![(0u32, 0u32); origin.len()];
-    for h in 0..origin.len() {
-        let (a, b) = (origin[h], target[h]);
-        let slot = &mut cursor[a.min(b) as usize];
-        bucket[*slot as usize] = (a.max(b), h as u32);
-        *slot += 1;
-    }
-    let mut twin = vec![NONE; origin.len()];
-    let mut manifold = true;
-    for v in 0..vertices {
-        let sides = &mut bucket[starts[v] as usize..starts[v + 1] as usize];
-        sides.sort_unstable();
-        for edge in sides.chunk_by(|x, y| x.0 == y.0) {
-            match *edge {
-                [_] => {}
-                [(_, g), (_, h)] if origin[g as usize] != origin[h as usize] => {
-                    twin[g as usize] = h;
-                    twin[h as usize] = g;
-                }
-                _ => manifold = false,
-            }
-        }
-    }
-    Pairing { twin, manifold }
+fn are_finite(points: &[Vec3]) -> bool {
+    par::all(points.len(), |i| points[i].is_finite())
 }
 
 #[cfg(test)]
@@ -474,7 +400,7 @@ mod tests {
 
     #[test]
     fn non_manifold_meshes_are_refused_precisely() {
-        let points = vec![crate::Vec3::ZERO; 8];
+        let points = vec![Vec3::ZERO; 8];
         let defects = |faces: &[[u32; 3]]| {
             let mesh = ControlMesh::new(points.clone(), faces.iter().copied().collect());
             Topology::new(&mesh).unwrap_err().defects

@@ -8,7 +8,7 @@ use crate::crease::rule::fade;
 use crate::curve_network::rule::Slice;
 use crate::mesh::{
     Boundary, ControlMesh, Creasing, FaceId, HalfedgeId, LensShape, Meeting, Scheme, Topology, TopologyError,
-    VertexId, check,
+    VertexId, check_tags,
 };
 
 /// An edge with sharpness above zero, by one of its halfedges.
@@ -53,13 +53,13 @@ impl Level {
             && mesh.holes.is_empty()
             && mesh.meetings.is_empty());
         if tagged || mesh.uv.is_some() || mesh.scheme.lens != LensShape::default() {
-            let defects = check(mesh);
+            let defects = check_tags(mesh, &topology);
             if !defects.is_empty() {
                 return Err(TopologyError { defects });
             }
         }
         let edges = mesh.creases.iter().filter_map(|crease| {
-            let halfedge = find_edge(&topology, crease.vertices.map(VertexId))?;
+            let halfedge = topology.find_edge(crease.vertices.map(VertexId))?;
             topology.twin(halfedge)?;
             Some((topology.edge(halfedge).0, SharpEdge { halfedge, sharpness: crease.sharpness.value() }))
         });
@@ -253,18 +253,4 @@ fn slices_of(topology: &Topology, meeting: &Meeting) -> Vec<(u32, Slice)> {
         (topology.face(halfedge).0, Slice { halfedge, port_first, t: meeting.t })
     };
     topology.ring(VertexId(meeting.vertex)).map(slice).collect()
-}
-
-/// The halfedge between two vertices, in either direction.
-fn find_edge(topology: &Topology, [a, b]: [VertexId; 2]) -> Option<HalfedgeId> {
-    topology.ring(a).find_map(|h| {
-        let before = topology.prev(h);
-        if topology.target(h) == b {
-            Some(h)
-        } else if topology.origin(before) == b {
-            Some(before)
-        } else {
-            None
-        }
-    })
 }
