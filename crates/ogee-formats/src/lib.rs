@@ -48,6 +48,7 @@ pub mod network;
 mod number;
 pub mod obj;
 pub mod off;
+mod par;
 pub mod patches;
 pub mod ply;
 pub mod samples;

@@ -1,4 +1,4 @@
-//! Numbers in text files: the fewest digits that read back as the same number.
+//! Numbers in text files: read to the nearest `f64`, written with the fewest digits that read back as the same number.
 
 use std::fmt;
 
@@ -16,6 +16,12 @@ impl fmt::Display for Shortest {
             fmt::LowerExp::fmt(&self.0, f)
         }
     }
+}
+
+/// The finite decimal number at the start of a text, to the nearest `f64`, and how many bytes it has.
+#[inline]
+pub(crate) fn decimal(text: &[u8]) -> Option<(f64, usize)> {
+    fast_float2::parse_partial::<f64, _>(text).ok().filter(|(value, _)| value.is_finite())
 }
 
 #[cfg(test)]
