@@ -30,7 +30,7 @@ impl Counts {
 pub(super) fn survey(piece: &[u8]) -> Option<Counts> {
     let mut counts = Counts::default();
     let mut statements = Statements::new(piece);
-    while let Some(statement) = statements.next() {
+    for statement in statements.by_ref() {
         match Kind::of(&statement.text) {
             Kind::Vertex => counts.vertices += 1,
             Kind::TextureCoordinate => counts.texture_coordinates += 1,
