@@ -3,11 +3,8 @@
 
 use super::statements::is_continued;
 use crate::builder::repeated;
-use crate::number::decimal;
+use crate::number::{decimal, up_to_eight_digits};
 use crate::text::measure_line;
-
-/// Digits of the largest number that is read here: whatever they are, it fits into 32 bits.
-const MOST_DIGITS: usize = 9;
 
 /// Reads `N` numbers after a keyword of so many bytes; what more there is on the line, a weight or a colour, is passed over.
 /// The numbers, and how many bytes the line has, its end among them.
@@ -41,10 +38,10 @@ pub(super) fn face(text: &[u8], vertices: &mut [u32], texture: &mut [u32]) -> Op
     let (mut corners, mut textured) = (0, 0);
     let mut at = 1;
     let length = loop {
-        let Some(start) = after_blanks(text, at) else { break after_line(text, at)? };
-        if let Some(length) = after_line(text, start) {
-            break length;
-        }
+        let start = match after_blanks(text, at) {
+            Some(start) if text.get(start).is_some_and(u8::is_ascii_digit) => start,
+            end => break after_line(text, end.unwrap_or(at))?,
+        };
         let vertex;
         (vertex, at) = natural(text, start)?;
         *vertices.get_mut(corners)? = vertex.checked_sub(1)?;
@@ -65,15 +62,19 @@ pub(super) fn face(text: &[u8], vertices: &mut [u32], texture: &mut [u32]) -> Op
         }
         corners += 1;
     };
-    let is_sound = corners >= 3 && repeated(&vertices[..corners]).is_none();
+    let is_sound = corners >= 3 && are_distinct(&vertices[..corners]);
     is_sound.then_some(Face { corners, textured, length })
 }
 
 /// Where the blanks at `at` end; `None` if there are none.
 #[inline]
 fn after_blanks(text: &[u8], at: usize) -> Option<usize> {
-    let blanks = text.get(at..)?.iter().take_while(|&&b| b == b' ' || b == b'\t').count();
-    (blanks > 0).then_some(at + blanks)
+    let is_blank = |at: usize| matches!(text.get(at), Some(b' ' | b'\t'));
+    let mut end = at;
+    while is_blank(end) {
+        end += 1;
+    }
+    (end > at).then_some(end)
 }
 
 /// Where the next line begins; `None` if this one does not end at `at`.
@@ -97,15 +98,28 @@ fn after_more(text: &[u8], at: usize) -> Option<usize> {
 /// A number without sign, and where it ends.
 #[inline]
 fn natural(text: &[u8], start: usize) -> Option<(u32, usize)> {
-    let (mut value, mut at) = (0, start);
-    while let Some(digit) = text.get(at).map(|b| b.wrapping_sub(b'0')).filter(|&digit| digit < 10) {
-        if at == start + MOST_DIGITS {
-            return None;
-        }
-        value = 10 * value + u32::from(digit);
-        at += 1;
+    let (value, count) = up_to_eight_digits(text.get(start..)?);
+    // Of eight digits or more it is not said here where they end.
+    (1..8).contains(&count).then_some((value as u32, start + count)).or_else(|| long_natural(text, start))
+}
+
+/// A number without sign of up to nine digits, which fit into 32 bits, and where it ends.
+#[cold]
+fn long_natural(text: &[u8], start: usize) -> Option<(u32, usize)> {
+    let digits = text[start..].iter().map(|b| b.wrapping_sub(b'0')).take_while(|&digit| digit < 10);
+    let count = digits.clone().count();
+    let value = || digits.fold(0, |value, digit| 10 * value + u32::from(digit));
+    (1..=9).contains(&count).then(|| (value(), start + count))
+}
+
+/// True if no vertex is named twice.
+#[inline]
+fn are_distinct(vertices: &[u32]) -> bool {
+    match *vertices {
+        [a, b, c] => a != b && b != c && c != a,
+        [a, b, c, d] => a != b && a != c && a != d && b != c && b != d && c != d,
+        _ => repeated(vertices).is_none(),
     }
-    (at > start).then_some((value, at))
 }
 
 #[cfg(test)]
@@ -121,6 +135,9 @@ mod tests {
         let read = face(b"f 1 2/7 3//9 4/8/7 \nf", &mut vertices, &mut texture).unwrap();
         assert_eq!((read.corners, read.textured, read.length), (4, 2, 20));
         assert_eq!((vertices, texture), ([0, 1, 2, 3], [0, 7, 0, 8]));
+        let read = face(b"f 1234567 12345678 123456789\nv 1 2 3", &mut vertices, &mut texture).unwrap();
+        assert_eq!((read.corners, read.length), (3, 29));
+        assert_eq!(vertices[..3], [1_234_566, 12_345_677, 123_456_788]);
     }
 
     #[test]
