@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use clap::Args;
 use ogee::{Boundary, ControlMesh, Creasing, Defect, LensShape, Place};
-use ogee_formats::{CageFile, CageFormat, read_cage};
+use ogee_formats::{CageFile, CageFormat, FileBytes, read_cage};
 
 use crate::error::{Failure, Finding};
 use crate::names::{BOUNDARIES, CREASINGS, Format, formats};
@@ -71,7 +71,7 @@ impl CageArguments {
     }
 
     /// The name, the format and the bytes of the file.
-    pub(crate) fn load(&self) -> Result<(String, CageFormat, Vec<u8>), Failure> {
+    pub(crate) fn load(&self) -> Result<(String, CageFormat, FileBytes), Failure> {
         if self.is_stdin() && self.input_format.is_none() {
             return Err(Failure::usage("reading from stdin wants --input-format"));
         }
@@ -111,15 +111,15 @@ impl CageArguments {
 }
 
 /// The bytes of a file, or of stdin, and its name in messages.
-pub(crate) fn read_bytes(path: &Path) -> Result<(String, Vec<u8>), Failure> {
+pub(crate) fn read_bytes(path: &Path) -> Result<(String, FileBytes), Failure> {
     if path == Path::new("-") {
         let mut bytes = Vec::new();
         let read = std::io::stdin().lock().read_to_end(&mut bytes);
         read.map_err(|error| Failure::unreadable("stdin", &error))?;
-        return Ok(("stdin".to_owned(), bytes));
+        return Ok(("stdin".to_owned(), bytes.into()));
     }
     let name = path.display().to_string();
-    let bytes = std::fs::read(path).map_err(|error| Failure::unreadable(&name, &error))?;
+    let bytes = FileBytes::open(path).map_err(|error| Failure::unreadable(&name, &error))?;
     Ok((name, bytes))
 }
 

@@ -103,32 +103,18 @@ impl CageBuilder {
     /// Takes the corners of a face, if nothing is wrong with it alone.
     fn narrow_corners(&mut self, corners: &[i64]) -> Result<(), Fault> {
         let face = self.faces.len();
-        if corners.len() < 3 {
-            let message = format!("face {face} has {} corners, fewer than three", corners.len());
-            return Err(Fault::new("face_too_small", message));
-        }
-        if self.faces.corners().len() + corners.len() >= u32::MAX as usize {
-            let message = "the faces have 2^32 corners or more".to_string();
-            return Err(Fault::new("too_many_elements", message));
+        if corners.len() >= 3 && self.faces.corners().len() + corners.len() >= u32::MAX as usize {
+            return Err(too_many_corners());
         }
         self.corners.clear();
-        for &vertex in corners {
-            self.corners.push(u32::try_from(vertex).map_err(|_| {
-                let message = if vertex < 0 {
-                    format!("face {face} uses vertex {vertex}, the first has number 0")
-                } else {
-                    format!("face {face} uses vertex {vertex}, a cage has fewer than 2^32")
-                };
-                Fault::new("missing_vertex", message)
-            })?);
-        }
-        match repeated(&self.corners) {
-            Some(vertex) => {
-                let message = format!("face {face} uses vertex {vertex} more than once");
-                Err(Fault::new("repeated_vertex", message))
-            }
-            None => Ok(()),
-        }
+        narrow_corners(face, corners, &mut self.corners)
+    }
+
+    /// Sets vertices, faces and the lines of faces, all that were found.
+    pub(crate) fn elements(&mut self, points: Vec<Vec3>, faces: FaceList, face_lines: Vec<u32>) {
+        self.points = points;
+        self.faces = faces;
+        self.face_lines = face_lines;
     }
 
     /// Adds a tag.
@@ -319,13 +305,45 @@ impl CageBuilder {
     }
 }
 
+/// The faces have more corners than can be numbered.
+pub(crate) fn too_many_corners() -> Fault {
+    Fault::new("too_many_elements", "the faces have 2^32 corners or more")
+}
+
+/// Adds the corners of face `face` to `narrow`, if nothing is wrong with it alone; else there may be some of them.
+pub(crate) fn narrow_corners(face: usize, corners: &[i64], narrow: &mut Vec<u32>) -> Result<(), Fault> {
+    if corners.len() < 3 {
+        let message = format!("face {face} has {} corners, fewer than three", corners.len());
+        return Err(Fault::new("face_too_small", message));
+    }
+    let start = narrow.len();
+    for &vertex in corners {
+        narrow.push(u32::try_from(vertex).map_err(|_| {
+            let message = if vertex < 0 {
+                format!("face {face} uses vertex {vertex}, the first has number 0")
+            } else {
+                format!("face {face} uses vertex {vertex}, a cage has fewer than 2^32")
+            };
+            Fault::new("missing_vertex", message)
+        })?);
+    }
+    match repeated(&narrow[start..]) {
+        Some(vertex) => {
+            let message = format!("face {face} uses vertex {vertex} more than once");
+            Err(Fault::new("repeated_vertex", message))
+        }
+        None => Ok(()),
+    }
+}
+
 /// The number, if it is one of `0 .. count`.
 fn within(number: i64, count: usize) -> Option<u32> {
     u32::try_from(number).ok().filter(|&number| (number as usize) < count)
 }
 
 /// A vertex that a face names twice.
-fn repeated(corners: &[u32]) -> Option<u32> {
+#[inline]
+pub(crate) fn repeated(corners: &[u32]) -> Option<u32> {
     // Sorting pays only where there are many.
     if corners.len() <= 8 {
         return (1..corners.len()).find(|&k| corners[..k].contains(&corners[k])).map(|k| corners[k]);

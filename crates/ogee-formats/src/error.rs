@@ -92,6 +92,19 @@ impl Faults {
         }
     }
 
+    /// The faults of several readers that shared the lines of one file, as one reader would have found them.
+    pub(crate) fn merged(parts: impl IntoIterator<Item = Faults>) -> Faults {
+        let mut all = Faults::default();
+        for part in parts {
+            all.list.extend(part.list);
+            all.unlisted += part.unlisted;
+        }
+        all.list.sort_by_key(|fault| fault.line);
+        all.unlisted += all.list.len().saturating_sub(ReadError::MOST_FAULTS);
+        all.list.truncate(ReadError::MOST_FAULTS);
+        all
+    }
+
     pub(crate) fn is_empty(&self) -> bool {
         self.list.is_empty()
     }

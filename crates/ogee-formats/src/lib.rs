@@ -1,7 +1,7 @@
 //! Files of ogee: control meshes in, parts and meshes out.
 //!
 //! Readers take bytes and writers take anything that can be written to: which file is opened, and under
-//! what name a result appears, is the caller's business.
+//! what name a result appears, is the caller's business. [`FileBytes`] are the bytes of a file, quickly.
 //!
 //! ```
 //! use ogee::convert;
@@ -39,6 +39,7 @@ pub mod bv;
 mod cage;
 pub mod curves;
 mod error;
+mod file;
 mod finite;
 mod glb;
 pub mod json;
@@ -48,6 +49,7 @@ pub mod network;
 mod number;
 pub mod obj;
 pub mod off;
+mod par;
 pub mod patches;
 pub mod ply;
 pub mod samples;
@@ -58,6 +60,7 @@ mod triangles;
 
 pub use cage::{CageFile, CageFormat, read_cage};
 pub use error::{Fault, ReadError, Warning};
+pub use file::FileBytes;
 pub use mesh::{Faces, MeshFormat, MeshView, Placement, write_mesh};
 
 /// The front page of the repository: its program is a test.

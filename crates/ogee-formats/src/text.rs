@@ -13,21 +13,33 @@ const LOOKED_AT: usize = 4096;
 /// # Errors
 /// If there is a zero byte anywhere, or a control character that no text has near the beginning.
 pub(crate) fn check_is_text(bytes: &[u8], format: &str) -> Result<(), ReadError> {
-    let refuse = |reason: &str| {
-        let message = format!("not a text file, so no {format}: {reason}");
-        Err(ReadError::single(Fault::new("not_text", message)))
-    };
+    check_begins_as_text(bytes, format)?;
+    // Looking whether there is one is quicker than looking where.
+    if bytes.contains(&0) { Err(has_zero(bytes, format)) } else { Ok(()) }
+}
+
+/// The refusal of bytes among which there is a zero.
+pub(crate) fn has_zero(bytes: &[u8], format: &str) -> ReadError {
+    let at = bytes.iter().position(|&b| b == 0).unwrap_or_default();
+    refusal(&format!("byte {at} is 0x00"), format)
+}
+
+/// As [`check_is_text`], for who looks for zero bytes while reading.
+pub(crate) fn check_begins_as_text(bytes: &[u8], format: &str) -> Result<(), ReadError> {
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
-        return refuse("it is UTF-16, save it as UTF-8");
+        return Err(refusal("it is UTF-16, save it as UTF-8", format));
     }
     // Ctrl-Z ends text files of old systems.
     let is_control = |&b: &u8| b < 0x20 && !matches!(b, b'\t' | b'\n' | b'\r' | 0x0b | 0x0c | 0x1a);
     let near = &bytes[..bytes.len().min(LOOKED_AT)];
-    let far_zero = || if bytes.contains(&0) { bytes.iter().position(|&b| b == 0) } else { None };
-    match near.iter().position(is_control).or_else(far_zero) {
-        Some(at) => refuse(&format!("byte {at} is {:#04x}", bytes[at])),
+    match near.iter().position(is_control) {
+        Some(at) => Err(refusal(&format!("byte {at} is {:#04x}", bytes[at]), format)),
         None => Ok(()),
     }
+}
+
+fn refusal(reason: &str, format: &str) -> ReadError {
+    ReadError::single(Fault::new("not_text", format!("not a text file, so no {format}: {reason}")))
 }
 
 /// The bytes without a byte order mark.
@@ -79,6 +91,54 @@ impl<'a> Iterator for Lines<'a> {
         };
         Some((self.number, line))
     }
+}
+
+/// What is known of a line when its end is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct MeasuredLine {
+    /// Bytes without the end.
+    pub(crate) length: usize,
+    /// How many of them are blanks.
+    pub(crate) blanks: usize,
+    /// True if it has a zero byte, which no text has.
+    pub(crate) has_zero: bool,
+}
+
+/// Finds the end of the first line, eight bytes at a time.
+#[inline]
+pub(crate) fn measure_line(text: &[u8]) -> MeasuredLine {
+    const ONES: u64 = 0x0101_0101_0101_0101;
+    const HIGH: u64 = 0x80 * ONES;
+    let mut measured = MeasuredLine { length: 0, blanks: 0, has_zero: false };
+    while let Some(bytes) = text[measured.length..].first_chunk::<8>() {
+        let word = u64::from_le_bytes(*bytes);
+        // The high bit of each byte tells whether it is below 0x10, as ends of lines are, or 0x21, as all blanks are.
+        let low = word & !HIGH;
+        let controls = !((low + (0x80 - 0x10) * ONES) | word) & HIGH;
+        let blanks = !((low + (0x80 - 0x21) * ONES) | word) & HIGH;
+        if controls != 0 {
+            let at = controls.trailing_zeros() as usize / 8;
+            if matches!(bytes[at], b'\n' | b'\r') {
+                let before = blanks & ((1 << (8 * at)) - 1);
+                measured.blanks += before.count_ones() as usize;
+                measured.length += at;
+                return measured;
+            }
+            break;
+        }
+        measured.blanks += ((blanks >> 7).wrapping_mul(ONES) >> 56) as usize;
+        measured.length += 8;
+    }
+    for &byte in &text[measured.length..] {
+        match byte {
+            b'\n' | b'\r' => break,
+            0 => measured.has_zero = true,
+            _ => {}
+        }
+        measured.blanks += usize::from(is_blank(byte));
+        measured.length += 1;
+    }
+    measured
 }
 
 /// What stands between blanks on a line, up to a comment.
@@ -168,6 +228,25 @@ mod tests {
         assert_eq!(lines.len(), expected.len());
         for (i, (number, line)) in lines.iter().enumerate() {
             assert_eq!((*number as usize, *line), (i + 1, expected[i]));
+        }
+    }
+
+    #[test]
+    fn lines_are_measured_wherever_they_end() {
+        let measured = |length, blanks, has_zero| MeasuredLine { length, blanks, has_zero };
+        for length in 0..40 {
+            for end in ["", "\n", "\r", "\r\n", "\nv 1 2\n", "\r1 2 3 4 5 6 7 8 9"] {
+                let line: String = "f 12 \u{e9}~".chars().cycle().take(length).collect();
+                let blanks = line.bytes().filter(|&b| b == b' ').count();
+                let text = format!("{line}{end}");
+                assert_eq!(measure_line(text.as_bytes()), measured(line.len(), blanks, false), "{text:?}");
+                let text = format!("{line}\t\0\x1a{end}");
+                assert_eq!(
+                    measure_line(text.as_bytes()),
+                    measured(line.len() + 3, blanks + 2, true),
+                    "{text:?}"
+                );
+            }
         }
     }
 

@@ -3,8 +3,16 @@
 //! A tag is a line `t <name> <ints>/<reals>/<names> <int ...> <real ...> <name ...>`. Its vertices and faces are
 //! numbered from 0, those of `f` lines from 1. Free-form surfaces, lines, groups and materials are passed over.
 
+mod careful;
+mod chunks;
+mod elements;
 mod mesh;
+mod quick;
 mod read;
+#[cfg(test)]
+mod simple;
+mod statements;
+mod survey;
 mod tags;
 mod write;
 

@@ -1,33 +1,21 @@
-//! Reading OBJ: one pass over the bytes, every habit of the programs that write it, every fault with its line.
+//! Reading OBJ at the speed of memory, every fault with its line.
+//!
+//! The file is cut into pieces of whole statements. The first pass counts what is in each piece, so that room can be set aside
+//! for everything and each piece knows what comes before it. The second one reads all pieces, each into its own room, plain
+//! lines quickly and others with care. What is left, tags and statements to be warned about, is read in the order of the file
+//! at the end. So neither the number of pieces nor that of threads can be told from the result.
 
-use ogee::{FaceVaryingRule, Vec3};
+use ogee::{FaceList, FaceVaryingRule, Vec3};
 
+use super::chunks::cut;
+use super::elements::{self, Found, Room};
+use super::survey::{Counts, survey};
 use super::tags;
-use crate::builder::{CageBuilder, Texture};
+use crate::builder::{CageBuilder, Texture, too_many_corners};
 use crate::cage::CageFile;
-use crate::error::{Fault, ReadError};
-use crate::text::{Lines, Tokens, check_is_text, integer, real, shown, without_mark};
-
-/// Statements that change nothing of the shape.
-const PASSED_OVER: [&[u8]; 17] = [
-    b"vn",
-    b"vp",
-    b"o",
-    b"g",
-    b"s",
-    b"mg",
-    b"l",
-    b"p",
-    b"usemtl",
-    b"mtllib",
-    b"usemap",
-    b"maplib",
-    b"bevel",
-    b"c_interp",
-    b"d_interp",
-    b"lod",
-    b"shadow_obj",
-];
+use crate::error::{Fault, Faults, ReadError};
+use crate::par;
+use crate::text::{Tokens, check_begins_as_text, has_zero, shown, without_mark};
 
 /// Statements of free-form curves and surfaces.
 const FREE_FORM: [&[u8]; 17] = [
@@ -53,90 +41,184 @@ const FREE_FORM: [&[u8]; 17] = [
 /// How many different unknown statements are warned about.
 const MOST_UNKNOWN: usize = 16;
 
-/// Stands for a corner without texture coordinate until all are counted.
-const NO_TEXTURE: u32 = u32::MAX;
+/// Bytes of a piece: what is read and written fits into the cache of a core, and there is work for many of them.
+const PIECE: usize = 1 << 18;
 
 /// Reads a cage.
 ///
 /// # Errors
 /// If the bytes are no text, or with every fault of the lines.
 pub fn read(bytes: &[u8]) -> Result<CageFile, ReadError> {
-    check_is_text(bytes, "OBJ")?;
-    let mut reader = Reader::default();
-    let mut lines = Lines::new(without_mark(bytes));
-    let mut joined = Vec::new();
-    while let Some((number, line)) = lines.next() {
-        if is_continued(line) {
-            join(line, &mut lines, &mut joined);
-            reader.statement(number, Tokens::new(&joined));
-        } else {
-            reader.statement(number, Tokens::new(line));
+    read_in_pieces(bytes, PIECE)
+}
+
+/// As [`read`], in pieces of so many bytes.
+fn read_in_pieces(bytes: &[u8], piece: usize) -> Result<CageFile, ReadError> {
+    check_begins_as_text(bytes, "OBJ")?;
+    let pieces = cut(without_mark(bytes), piece);
+    let counts: Option<Vec<Counts>> = par::map(pieces.clone(), survey).into_iter().collect();
+    let mut arrays = Arrays::with_room(counts.ok_or_else(|| has_zero(bytes, "OBJ"))?);
+    let tasks: Vec<_> = pieces.into_iter().zip(arrays.rooms()).collect();
+    let found = par::map(tasks, |(piece, (before, room))| elements::read(piece, before, room));
+    gather(arrays, found)
+}
+
+/// Everything there is room for.
+struct Arrays {
+    /// What is in each piece.
+    counts: Vec<Counts>,
+    points: Vec<[f64; 3]>,
+    texture_coordinates: Vec<[f64; 2]>,
+    face_lines: Vec<u32>,
+    /// Where each face begins, which is known when all are read; until then, after the first entry, [`Room::ends`].
+    starts: Vec<u32>,
+    vertices: Vec<u32>,
+    texture: Vec<u32>,
+}
+
+impl Arrays {
+    /// Room for so much. Memory that is cleared by being asked for costs nothing until it is written to, so it is first touched
+    /// by the threads that fill it.
+    fn with_room(counts: Vec<Counts>) -> Arrays {
+        let all = counts.iter().copied().fold(Counts::default(), Counts::and);
+        Arrays {
+            counts,
+            points: vec![[0.0; 3]; all.vertices],
+            texture_coordinates: vec![[0.0; 2]; all.texture_coordinates],
+            face_lines: vec![0; all.faces],
+            starts: vec![0; all.faces + 1],
+            vertices: vec![0; all.corners],
+            texture: vec![0; all.corners],
         }
     }
-    reader.finish()
+
+    /// For each piece, what comes before it and its own room.
+    fn rooms(&mut self) -> Vec<(Counts, Room<'_>)> {
+        let mut points = &mut self.points[..];
+        let mut texture_coordinates = &mut self.texture_coordinates[..];
+        let mut face_lines = &mut self.face_lines[..];
+        let mut ends = &mut self.starts[1..];
+        let mut vertices = &mut self.vertices[..];
+        let mut texture = &mut self.texture[..];
+        let mut before = Counts::default();
+        let rooms = self.counts.iter().map(|&counts| {
+            let room = Room {
+                points: take(&mut points, counts.vertices),
+                texture_coordinates: take(&mut texture_coordinates, counts.texture_coordinates),
+                face_lines: take(&mut face_lines, counts.faces),
+                ends: take(&mut ends, counts.faces),
+                vertices: take(&mut vertices, counts.corners),
+                texture: take(&mut texture, counts.corners),
+            };
+            let start = before;
+            before = before.and(counts);
+            (start, room)
+        });
+        rooms.collect()
+    }
+
+    /// Closes the gaps between the corners of pieces, which have so many, and tells faces where they begin. True if all corners
+    /// can be numbered.
+    fn close_gaps(&mut self, corners: &[usize]) -> bool {
+        if u32::try_from(corners.iter().sum::<usize>()).is_err() {
+            return false;
+        }
+        let (mut room, mut face, mut filled) = (0, 1, 0);
+        for (counts, &corners) in self.counts.iter().zip(corners) {
+            if room != filled {
+                self.vertices.copy_within(room..room + corners, filled);
+                self.texture.copy_within(room..room + corners, filled);
+            }
+            for end in &mut self.starts[face..face + counts.faces] {
+                *end += filled as u32;
+            }
+            room += counts.corners;
+            face += counts.faces;
+            filled += corners;
+        }
+        self.vertices.truncate(filled);
+        self.texture.truncate(filled);
+        true
+    }
 }
 
-/// True if the next line belongs to this one. A comment that ends with a folder's name does not go on.
-fn is_continued(line: &[u8]) -> bool {
-    line.trim_ascii_end().ends_with(b"\\") && !line.trim_ascii_start().starts_with(b"#")
+/// The first `count` entries; the others stay.
+fn take<'a, T>(entries: &mut &'a mut [T], count: usize) -> &'a mut [T] {
+    let (first, rest) = std::mem::take(entries).split_at_mut(count);
+    *entries = rest;
+    first
 }
 
-/// Puts a line and those that continue it into `joined`.
-fn join(first: &[u8], lines: &mut Lines<'_>, joined: &mut Vec<u8>) {
-    joined.clear();
-    let mut line = first;
-    loop {
-        let text = line.trim_ascii_end();
-        match text.strip_suffix(b"\\") {
-            Some(text) => joined.extend_from_slice(text),
+/// Makes a cage of what was found in each piece.
+fn gather(mut arrays: Arrays, found: Vec<Found<'_>>) -> Result<CageFile, ReadError> {
+    let mut rest = Rest::default();
+    let corners: Vec<usize> = found.iter().map(|found| found.corners).collect();
+    let textured: usize = found.iter().map(|found| found.textured).sum();
+    let first_untextured = found.iter().find_map(|found| found.first_untextured);
+    let mut faults = Vec::new();
+    for found in found {
+        faults.push(found.faults);
+        for (line, statement) in found.others {
+            rest.statement(line, Tokens::new(&statement));
+        }
+    }
+    let Rest { mut cage, rule, unknown, .. } = rest;
+    faults.push(std::mem::take(&mut cage.faults));
+    cage.faults = Faults::merged(faults);
+    if !arrays.close_gaps(&corners) {
+        return Err(ReadError::single(too_many_corners()));
+    }
+    let Arrays { points, texture_coordinates, face_lines, starts, vertices, mut texture, .. } = arrays;
+    if let (true, Some((line, keyword))) = (face_lines.is_empty(), unknown.first()) {
+        // Most likely no OBJ at all.
+        let message =
+            format!("the file has no faces, and `{}` on line {line} is no statement of OBJ", shown(keyword));
+        cage.faults.push(Fault::new("no_faces", message));
+    }
+    if textured > 0 {
+        match first_untextured {
             None => {
-                joined.extend_from_slice(text);
-                return;
+                texture.iter_mut().for_each(|number| *number -= 1);
+                cage.texture(Texture { values: texture_coordinates, indices: texture, rule });
+            }
+            Some(line) => {
+                let message = "this face has corners without texture coordinate, others have them; \
+                               all texture coordinates were passed over";
+                cage.warn(line, "partial_texture", message.to_string());
             }
         }
-        joined.push(b' ');
-        match lines.next() {
-            Some((_, next)) => line = next,
-            None => return,
-        }
     }
+    let faces =
+        FaceList::from_arrays(starts, vertices).ok_or_else(|| ReadError::single(too_many_corners()))?;
+    // The same memory, read as something else.
+    let points = points.into_iter().map(Vec3::from).collect();
+    cage.elements(points, faces, face_lines);
+    cage.finish()
 }
 
-/// What has been read so far.
+/// What is read of statements that are no elements, in the order of the file.
 #[derive(Default)]
-struct Reader {
+struct Rest {
     cage: CageBuilder,
-    texture: Vec<[f64; 2]>,
-    /// One entry per face corner.
-    texture_indices: Vec<u32>,
-    textured_corners: usize,
-    /// The line of the first face that has a corner without texture coordinate.
-    first_untextured: Option<u32>,
     rule: FaceVaryingRule,
     has_free_form: bool,
     /// The keywords warned about, with the lines where they stood first.
     unknown: Vec<(u32, Vec<u8>)>,
-    vertices_of_face: Vec<i64>,
-    texture_of_face: Vec<u32>,
 }
 
-impl Reader {
+impl Rest {
     fn statement(&mut self, line: u32, mut tokens: Tokens<'_>) {
-        let Some(keyword) = tokens.next() else { return };
-        match keyword {
-            b"v" => self.vertex(line, tokens),
-            b"vt" => self.texture_coordinate(line, tokens),
-            b"f" | b"fo" => self.face(line, tokens),
-            b"t" => tags::read(&mut self.cage, &mut self.rule, line, tokens),
-            _ if PASSED_OVER.contains(&keyword) => {}
-            _ if FREE_FORM.contains(&keyword) => {
+        match tokens.next() {
+            None => {}
+            Some(b"t") => tags::read(&mut self.cage, &mut self.rule, line, tokens),
+            Some(keyword) if FREE_FORM.contains(&keyword) => {
                 if !self.has_free_form {
                     let message = "free-form curves and surfaces are not read".to_string();
                     self.cage.warn(line, "free_form", message);
                 }
                 self.has_free_form = true;
             }
-            _ => self.unknown_statement(line, keyword),
+            Some(keyword) => self.unknown_statement(line, keyword),
         }
     }
 
@@ -148,164 +230,192 @@ impl Reader {
             self.unknown.push((line, keyword.to_vec()));
         }
     }
+}
 
-    fn vertex(&mut self, line: u32, tokens: Tokens<'_>) {
-        let vertex = self.cage.points.len();
-        match numbers::<3>(tokens, 3) {
-            Ok(point) => self.cage.vertex(Some(line), Vec3::from(point)),
-            Err(reason) => {
-                self.cage.broken_vertex(reason.fault(&format!("vertex {vertex}")).on_line(line));
-            }
-        }
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::simple;
+    use super::*;
+
+    /// Everything that is read, or every fault.
+    fn all(read: Result<CageFile, ReadError>) -> String {
+        // Not-a-number is no number's equal, and zero is that of its negative: texts differ where bits do.
+        format!("{read:?}")
     }
 
-    fn texture_coordinate(&mut self, line: u32, tokens: Tokens<'_>) {
-        let what = || format!("texture coordinate {}", self.texture.len());
-        match numbers::<2>(tokens, 1) {
-            Ok(value) if value.iter().all(|x| x.is_finite()) => self.texture.push(value),
-            Ok(_) => {
-                let message = format!("{} is no finite number", what());
-                self.cage.faults.push(Fault::new("not_finite", message).on_line(line));
-                self.texture.push([0.0; 2]);
-            }
-            Err(reason) => {
-                self.cage.faults.push(reason.fault(&what()).on_line(line));
-                self.texture.push([0.0; 2]);
-            }
-        }
+    fn assert_alike(bytes: &[u8], piece: usize) {
+        let (quick, simple) = (all(read_in_pieces(bytes, piece)), all(simple::read(bytes)));
+        assert!(quick == simple, "{piece}: {}\n{quick}\n{simple}", String::from_utf8_lossy(bytes));
     }
 
-    fn face(&mut self, line: u32, tokens: Tokens<'_>) {
-        self.vertices_of_face.clear();
-        self.texture_of_face.clear();
-        for token in tokens {
-            if let Err(fault) = self.face_corner(token) {
-                self.cage.broken_face(Some(line), fault);
-                return;
-            }
-        }
-        if !self.cage.face(Some(line), &self.vertices_of_face) {
-            return;
-        }
-        let textured = self.texture_of_face.iter().filter(|&&i| i != NO_TEXTURE).count();
-        if textured < self.texture_of_face.len() {
-            self.first_untextured.get_or_insert(line);
-        }
-        self.textured_corners += textured;
-        self.texture_indices.extend_from_slice(&self.texture_of_face);
+    /// What stands in files of all kinds of programs, and what went wrong in them.
+    const SNIPPETS: [&str; 64] = [
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+        "v 1.5 -2e-3 +0\nv .5 5. 1E2\nv 0.1 0.10000000000000001 123456789012345678901234567890\n",
+        "v 4.9e-324 1.7976931348623157e308 2.2250738585072011e-308\n",
+        "v 1 2 3 1.0\nv 1 2 3 0.1 0.2 0.3\nv 1 2 3 0.5 \\\n 4\nv 1 2 3 # a\nv 1 2 3 four\n",
+        "v 1 2\n",
+        "v\n",
+        "v 1 2 # 3\n",
+        "v 1 2,5 3\n",
+        "v 0x1 2 3\n",
+        "v nan 0 0\n",
+        "v 0 -inf 0\nv 0 Infinity 0\nv 0 1e999 0\n",
+        "v 1 2 1_000\nv 1 2 3e\nv . 0 0\nv + - 0\nv 1e+ 0 0\nv 1 2 --3\nv 1d5 0 0\n",
+        "v 1 2 caf\u{e9}\n",
+        "v\t1\t2\t3\n  v 1 2 3\nv\u{b}1\u{c}2 3\n",
+        "v 1 2 3 \nv 1 2 3\t\nv  1   2  3\n",
+        "v 1 2 3\r\nv 1 2 3\rv 1 2 3\n\r",
+        "v 1 \\\n2 \\ \r\n 3\n",
+        "v 1 2 3\\\n4\n",
+        "# a comment\n#\n  # another \\\nv 1 2 3\n",
+        "vt 0 0\nvt 1 0 0\nvt 0.5\n",
+        "vt\nvt nan\nvt 1 x\nvt 0 inf\n",
+        "vt 0.25 0.75 \\\n 1\n",
+        "vn 0 0 1\nvn\nvp 1\n",
+        "f 1 2 3\nf 1/1 2/2 3/1\n",
+        "f 1/1 2/2 3/1\n",
+        "f 1/1/1 2/2/1 3/1/1\n",
+        "f 1//1 2//1 3//1\n",
+        "f 1/ 2/ 3/\nf 1// 2// 3//\nf 1/1/ 2/2/ 3/1/\n",
+        "f -3 -2 -1\n",
+        "f -3/-1 -2/-1 -1/-1\n",
+        "f -1 -2 1\n",
+        "f 1 2 3 \nf\t3\t2\t1\n f 1 2 3\nf  1  2  3\n",
+        "f 1 2 \\\n  3\nf 3 \\ \n 2 \\\r\n 1\n",
+        "f 1 2 3 \\\n",
+        "f 1 2 3 # 4\nf 1 2 # 3\n",
+        "fo 1 2 3\n",
+        "f 1 2\n",
+        "f\n",
+        "f 1 2 1\n",
+        "f 1 2 3 4 5 6 7 8 9 10 1\n",
+        "f 1 2 3 4 5 6 7 8 9 10 11 12\n",
+        "f 1 2 100\n",
+        "f 1 2 0\n",
+        "f 1 2 -400\n",
+        "f 1 2 99999999999\nf 1 2 4294967296\nf 1 2 4294967297\n",
+        "f 1 2 1234567890123456789\nf 1 2 +3\nf 1 2 0000000000003\n",
+        "f 1 2 x\nf 1 2 3/1/1/1\nf 1 2 3/a\nf 1 2 3//a\nf 1 2 3.0\nf 1 2 /\n",
+        "f 1/0 2 3\n",
+        "f 1/-9 2/1 3/1\n",
+        "f 1/4294967296 2/4294967297 3/99999999999\n",
+        "f 1/7 2/8 3/9\n",
+        "l 1 2 3\np 1\nl\n",
+        "g a b\no name\ns off\nusemtl red\nmtllib a.mtl\n",
+        "cstype bspline\ndeg 3 3\nsurf 0 1 0 1 1 2 3\nend\n",
+        "zz 1\nzz 2\nv# 1\nf# 1\nV 1 2 3\n",
+        "a\nb\nc\nd\ne\nf1\ng1\nh\ni\nj\nk\nl1\nm\nn\no1\np1\nq\nr\n",
+        "t crease 2/1/0 0 1 2.5\nt corner 1/1/0 2 inf\nt hole 1/0/0 0\n",
+        "t crease 2/1/0 0 \\\n 1 2.5\nt interpolateboundary 1/0/0 2\n",
+        "t facevaryinginterpolateboundary 1/0/0 5\nt creasemethod 0/0/1 chaikin\n",
+        "t crease 2/1/0 0 77 1\nt hole 1/0/0 99\nt\nt sparkle\nt vertexedit 1/0/0 1\n",
+        "t crease 2/1/0 0 1\nt corner 1/1/0 0 nan\n",
+        "\n\n\r\n\r\r \t\n\u{1a}",
+        "\\\n\\\n\nv 1 2 3\n",
+        "\\",
+    ];
+
+    fn file() -> impl Strategy<Value = Vec<u8>> {
+        let snippet = prop::sample::select(&SNIPPETS[..]);
+        let start = prop::sample::select(
+            &["", "\u{feff}", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nf 1 2 3\n"][..],
+        );
+        let end = prop::sample::select(&["", "f 1 2 3", "v 1 2 3 \\", "\0", "\u{1a}"][..]);
+        let returns = prop::sample::select(&["\n", "\n", "\r\n", "\r"][..]);
+        (start, prop::collection::vec(snippet, 0..12), end, returns).prop_map(
+            |(start, parts, end, returns)| {
+                [start, &parts.concat().replace('\n', returns), end].concat().into_bytes()
+            },
+        )
     }
 
-    /// Reads `v`, `v/vt`, `v//vn` or `v/vt/vn`.
-    fn face_corner(&mut self, token: &[u8]) -> Result<(), Fault> {
-        let face = self.cage.faces.len();
-        let malformed = || {
-            let message =
-                format!("face {face} has a corner `{}`, not v, v/vt, v//vn or v/vt/vn", shown(token));
-            Fault::new("bad_number", message)
-        };
-        let mut parts = token.split(|&b| b == b'/');
-        let vertex = integer(parts.next().unwrap_or_default()).ok_or_else(malformed)?;
-        let texture = match parts.next() {
-            None | Some(b"") => None,
-            Some(part) => Some(integer(part).ok_or_else(malformed)?),
-        };
-        if let Some(normal) = parts.next() {
-            if !normal.is_empty() {
-                integer(normal).ok_or_else(malformed)?;
-            }
-        }
-        if parts.next().is_some() {
-            return Err(malformed());
-        }
-        let vertex = from_zero(vertex, self.cage.points.len())
-            .map_err(|reason| Fault::new("missing_vertex", format!("face {face} {}", reason("vertex"))))?;
-        let texture = match texture {
-            None => NO_TEXTURE,
-            Some(number) => from_zero(number, self.texture.len())
-                .map(|index| u32::try_from(index).unwrap_or(NO_TEXTURE - 1))
-                .map_err(|reason| {
-                    let message = format!("face {face} {}", reason("texture coordinate"));
-                    Fault::new("face_varying", message)
-                })?,
-        };
-        self.vertices_of_face.push(vertex);
-        self.texture_of_face.push(texture);
-        Ok(())
+    /// Vertices, texture coordinates and faces without faults, in any order and any manner.
+    fn sound_file() -> impl Strategy<Value = Vec<u8>> {
+        let vertex =
+            (any::<f32>(), -1e3..1e3f64, prop::sample::select(&["", " ", " 1", "\t# 2", " 0.1 0.2 0.3"][..]))
+                .prop_map(|(x, y, rest)| {
+                    let x = if x.is_finite() { x } else { 0.0 };
+                    format!("v {x:e} {y:.6} {y}{rest}")
+                });
+        let texture = (0.0..1.0f64, 0..1000u32).prop_map(|(u, v)| format!("vt {u} 0.{v}"));
+        let distinct = prop::sample::subsequence((1..=12).collect::<Vec<u32>>(), 3..=12);
+        let face = (distinct, 0..6u32).prop_map(|(corners, manner)| {
+            let corner = |v: &u32| match manner {
+                0 | 1 => format!(" {v}"),
+                2 => format!(" {v}/{}", v % 3 + 1),
+                3 => format!(" {v}//{v}"),
+                4 => format!("  {v}/1/{v} "),
+                _ => format!(" \\\n-{v}"),
+            };
+            format!("f{}", corners.iter().map(corner).collect::<String>())
+        });
+        let other =
+            prop::sample::select(&["vn 0 0 1", "# a", "", "g b", "t corner 1/1/0 1 2", "usemtl c", "zz"][..]);
+        let line = prop_oneof![4 => vertex, 1 => texture, 4 => face, 1 => other.prop_map(str::to_string)];
+        (prop::collection::vec(line, 0..60), prop::sample::select(&["\n", "\r\n"][..])).prop_map(
+            |(lines, end)| {
+                let start = "v 0 0 1\n".repeat(12) + "vt 0 0\nvt 1 0\nvt 1 1\n";
+                (start + &lines.join("\n") + "\n").replace('\n', end).into_bytes()
+            },
+        )
     }
 
-    fn finish(mut self) -> Result<CageFile, ReadError> {
-        if let (true, Some((line, keyword))) = (self.cage.faces.is_empty(), self.unknown.first()) {
-            // Most likely no OBJ at all.
-            let message = format!(
-                "the file has no faces, and `{}` on line {line} is no statement of OBJ",
-                shown(keyword)
-            );
-            self.cage.faults.push(Fault::new("no_faces", message));
-        }
-        if self.textured_corners > 0 {
-            match self.first_untextured {
-                None => self.cage.texture(Texture {
-                    values: self.texture,
-                    indices: self.texture_indices,
-                    rule: self.rule,
-                }),
-                Some(line) => {
-                    let message = "this face has corners without texture coordinate, others have them; \
-                                   all texture coordinates were passed over";
-                    self.cage.warn(line, "partial_texture", message.to_string());
+    #[test]
+    fn every_snippet_is_read_as_before() {
+        for start in ["", SNIPPETS[0], "v 1 0 0\nv 2 0 0\nv 0 1 0\nvt 0 0\nvt 1 1\n"] {
+            for snippet in SNIPPETS {
+                for piece in [1, 10, 1 << 20] {
+                    assert_alike(format!("{start}{snippet}").as_bytes(), piece);
+                    assert_alike(format!("{start}{snippet}{}", SNIPPETS[0]).as_bytes(), piece);
+                    assert_alike(format!("{start}{}", snippet.trim_end()).as_bytes(), piece);
                 }
             }
         }
-        self.cage.finish()
     }
-}
 
-/// A number of the file, which counts from 1 or back from the last, as one that counts from 0.
-fn from_zero(number: i64, so_far: usize) -> Result<i64, impl Fn(&str) -> String> {
-    let index = match number {
-        1.. => number - 1,
-        _ => number + so_far as i64,
-    };
-    if number != 0 && index >= 0 {
-        return Ok(index);
-    }
-    Err(move |what: &str| match number {
-        0 => format!("uses {what} number 0 of the file, which counts from 1"),
-        _ => format!("uses {what} {number}, counted back from the last, but only {so_far} come before it"),
-    })
-}
-
-/// Why a line of numbers could not be read.
-enum NumberFault {
-    Missing { found: usize, needed: usize },
-    Malformed(String),
-}
-
-impl NumberFault {
-    fn fault(self, what: &str) -> Fault {
-        match self {
-            NumberFault::Missing { found, needed } => {
-                Fault::new("missing_number", format!("{what} has only {found} of {needed} coordinates"))
-            }
-            NumberFault::Malformed(token) => {
-                Fault::new("bad_number", format!("{what} has a coordinate `{token}`, which is no number"))
+    #[test]
+    fn more_faults_and_warnings_than_are_kept() {
+        for line in
+            ["f 1 2\n", "v 1\n", "vt\n", "t\n", "t sparkle\n", "v 1\nt\n", "f 1 2 9\n", "t\nf 1 2 7000\n"]
+        {
+            let text = format!("{}{}", SNIPPETS[0], line.repeat(1500));
+            for piece in [100, 5000, 1 << 20] {
+                assert_alike(text.as_bytes(), piece);
             }
         }
     }
-}
 
-/// The first `N` numbers of a line, of which `needed` have to be there; the others are 0. What follows, a
-/// weight or a colour, is no part of the shape.
-fn numbers<const N: usize>(mut tokens: Tokens<'_>, needed: usize) -> Result<[f64; N], NumberFault> {
-    let mut values = [0.0; N];
-    for (found, value) in values.iter_mut().enumerate() {
-        let Some(token) = tokens.next() else {
-            if found < needed {
-                return Err(NumberFault::Missing { found, needed });
+    #[test]
+    fn shipped_cages_are_read_as_before() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../models");
+        let mut count = 0;
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_some_and(|extension| extension == "obj") {
+                let bytes = std::fs::read(&path).unwrap();
+                for piece in [64, 1000, PIECE] {
+                    assert_alike(&bytes, piece);
+                }
+                count += 1;
             }
-            break;
-        };
-        *value = real(token).ok_or_else(|| NumberFault::Malformed(shown(token)))?;
+        }
+        assert!(count > 10);
     }
-    Ok(values)
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 1000, ..ProptestConfig::default() })]
+
+        #[test]
+        fn files_of_snippets_cut_anywhere(file in file(), piece in 0..200usize) {
+            assert_alike(&file, piece);
+        }
+
+        #[test]
+        fn sound_files_cut_anywhere(file in sound_file(), piece in 0..400usize) {
+            assert_alike(&file, piece);
+        }
+    }
 }

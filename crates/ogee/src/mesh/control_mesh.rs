@@ -209,6 +209,23 @@ impl FaceList {
         FaceList { starts, vertices: Vec::with_capacity(corners) }
     }
 
+    /// The faces whose corners these are, one face after the other: face `f` has those from `starts[f]` up to
+    /// `starts[f + 1]`, so that there is one start more than there are faces. `None` if the starts do not begin with 0,
+    /// fall, or do not end with the number of corners.
+    ///
+    /// ```
+    /// # use ogee::FaceList;
+    /// let faces = FaceList::from_arrays(vec![0, 3, 7], vec![0, 1, 2, 0, 2, 3, 4]).expect("a triangle and a quad");
+    /// assert_eq!(faces.face(1), [0, 2, 3, 4]);
+    /// assert!(FaceList::from_arrays(vec![0, 3, 8], vec![0, 1, 2, 0, 2, 3, 4]).is_none());
+    /// ```
+    pub fn from_arrays(starts: Vec<u32>, corners: Vec<u32>) -> Option<FaceList> {
+        let fits = starts.first() == Some(&0)
+            && starts.last().is_some_and(|&end| end as usize == corners.len())
+            && starts.is_sorted();
+        fits.then_some(FaceList { starts, vertices: corners })
+    }
+
     /// Adds a face.
     ///
     /// # Panics
