@@ -23,6 +23,11 @@ impl Answers {
         Ok(Spread { median: values[values.len() / 2], least: values[0], greatest: values[values.len() - 1] })
     }
 
+    /// The first answer, for what is the same in all.
+    pub(crate) fn first(&self) -> Result<&Value> {
+        self.0.first().context("no round was run")
+    }
+
     /// Nanoseconds a point.
     pub(crate) fn nanoseconds(&self) -> Result<Spread> {
         self.spread(|answer| Some(answer["seconds"].as_f64()? * 1e9 / answer["points"].as_f64()?))
