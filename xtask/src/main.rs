@@ -12,6 +12,7 @@ mod tables;
 use std::path::PathBuf;
 
 use anyhow::{Result, bail};
+use bench::refine::Selection;
 use mimalloc::MiMalloc;
 
 /// Keeps memory that is given back for the next who asks, thread by thread, where the system's has its pages cleared anew while
@@ -37,10 +38,12 @@ fn main() -> Result<()> {
         ["bench", "threads"] => bench::threads::compare(&mut std::io::stdout()),
         ["bench", "limit"] => bench::limit::compare(&mut std::io::stdout()),
         ["bench", "limit", task] => bench::limit::compare_times(&mut std::io::stdout(), task),
-        ["bench", "refine"] => bench::refine::refine(&mut std::io::stdout(), ""),
-        ["bench", "refine", cage] => bench::refine::refine(&mut std::io::stdout(), cage),
-        ["bench", "animate"] => bench::refine::animate(&mut std::io::stdout(), ""),
-        ["bench", "animate", cage] => bench::refine::animate(&mut std::io::stdout(), cage),
+        ["bench", "refine", ref rest @ ..] => {
+            bench::refine::refine(&mut std::io::stdout(), &Selection::parse(rest)?)
+        }
+        ["bench", "animate", ref rest @ ..] => {
+            bench::refine::animate(&mut std::io::stdout(), &Selection::parse(rest)?)
+        }
         ["bench", "obj"] => bench::refine::obj(&mut std::io::stdout()),
         ["reproduce", "interrogation"] => {
             for line in reproduce::interrogation::write(&root())? {
@@ -84,7 +87,7 @@ fn main() -> Result<()> {
         }
         _ => {
             bail!(
-                "usage: cargo xtask models [DIR] | bench [limit [TASK] | threads | refine [CAGE] | animate [CAGE] | obj] | reproduce interrogation|curve-networks|lens|g2 | tables [DIR] | bless"
+                "usage: cargo xtask models [DIR] | bench [limit [TASK] | threads | refine [CAGE [ROUNDS]] | animate [CAGE [ROUNDS]] | obj] | reproduce interrogation|curve-networks|lens|g2 | tables [DIR] | bless"
             )
         }
     }

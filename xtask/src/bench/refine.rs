@@ -5,12 +5,12 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 
 use super::figures::{Figures, Precision};
 use super::machine;
 use super::peers::{self, Contestant, FLAGS, Found};
-use super::report::{Answers, Spread, Table, rounds};
+use super::report::{Answers, ROUNDS, Spread, Table, rounds_of};
 
 /// A cage refined to a level.
 struct Course {
@@ -37,6 +37,43 @@ const COURSES: [Course; 4] = [
 /// Poses of an animated cage; the median of their times is one answer.
 const FRAMES: &str = "9";
 
+/// What of a comparison is run.
+pub(crate) struct Selection {
+    /// The cages whose names begin so.
+    pub(crate) cages: String,
+    /// How often everybody runs.
+    pub(crate) rounds: usize,
+}
+
+impl Default for Selection {
+    fn default() -> Selection {
+        Selection { cages: String::new(), rounds: ROUNDS }
+    }
+}
+
+impl Selection {
+    /// The beginning of a cage's name, and a number of rounds.
+    ///
+    /// # Errors
+    /// If there is something else, or no round.
+    pub(crate) fn parse(arguments: &[&str]) -> Result<Selection> {
+        let rounds_of = |text: &str| text.parse().ok().filter(|&rounds| rounds > 0);
+        match *arguments {
+            [] => Ok(Selection::default()),
+            [cages] => Ok(Selection { cages: cages.into(), ..Selection::default() }),
+            [cages, rounds] => {
+                let rounds = rounds_of(rounds).context("the number of rounds is 1 or more")?;
+                Ok(Selection { cages: cages.into(), rounds })
+            }
+            _ => bail!("a cage and a number of rounds are all that can be chosen"),
+        }
+    }
+
+    fn courses(&self) -> impl Iterator<Item = &'static Course> + use<'_> {
+        COURSES.iter().filter(|course| course.cage.starts_with(&self.cages))
+    }
+}
+
 /// Who is there.
 struct Programs {
     rust: Found,
@@ -60,21 +97,21 @@ fn double(contestant: Contestant) -> Entry {
     Entry { contestant, precision: Precision::Double }
 }
 
-/// Times of refinement on the cages whose names begin so, a table each, in Markdown, as they are finished.
+/// Times of refinement, a table for each cage, in Markdown, as they are finished.
 ///
 /// # Errors
 /// If something cannot be run.
-pub(crate) fn refine(out: &mut impl Write, cages: &str) -> Result<()> {
+pub(crate) fn refine(out: &mut impl Write, selection: &Selection) -> Result<()> {
     let (programs, folder) = (Programs::find()?, tempfile::tempdir()?);
     programs.describe(out)?;
-    for course in COURSES.iter().filter(|course| course.cage.starts_with(cages)) {
+    for course in selection.courses() {
         let (cage, about) = programs.write_cage(course, folder.path())?;
         let entries = programs.refiners(course);
         let reference = Figures::read(&entries[0].contestant.run("refine", &cage, &[])?)?;
         writeln!(out, "\n**{about}, level {}: {} faces.**\n", course.level, reference.faces)?;
         let limits = programs.limits(reference.bytes());
         let all: Vec<&Contestant> = entries.iter().map(|entry| &entry.contestant).chain(&limits).collect();
-        let answers = rounds(&all, "refine", &cage, &[])?;
+        let answers = rounds_of(selection.rounds, &all, "refine", &cage, &[])?;
         let table = Refined { reference: &reference, entries: &entries, answers: &answers, limits: &limits };
         write!(out, "{}", table.table()?)?;
     }
@@ -85,15 +122,14 @@ pub(crate) fn refine(out: &mut impl Write, cages: &str) -> Result<()> {
 ///
 /// # Errors
 /// If something cannot be run.
-pub(crate) fn animate(out: &mut impl Write, cages: &str) -> Result<()> {
+pub(crate) fn animate(out: &mut impl Write, selection: &Selection) -> Result<()> {
     let (programs, folder) = (Programs::find()?, tempfile::tempdir()?);
     programs.describe(out)?;
-    let animated = COURSES.iter().filter(|course| course.level > 1 && course.cage.starts_with(cages));
-    for course in animated {
+    for course in selection.courses().filter(|course| course.level > 1) {
         let (cage, about) = programs.write_cage(course, folder.path())?;
         let entries = programs.animators(course);
         let contestants: Vec<&Contestant> = entries.iter().map(|entry| &entry.contestant).collect();
-        let answers = rounds(&contestants, "animate", &cage, &[FRAMES])?;
+        let answers = rounds_of(selection.rounds, &contestants, "animate", &cage, &[FRAMES])?;
         let reference = Figures::read(answers[0].first()?)?;
         writeln!(out, "\n**{about}, level {}, animated: {} vertices.**\n", course.level, reference.vertices)?;
         let mut table = Table::new(&[
@@ -148,7 +184,7 @@ pub(crate) fn obj(out: &mut impl Write) -> Result<()> {
         single(programs.rust.contestant("tobj, f32", "tobj", -1)),
     ];
     let contestants: Vec<&Contestant> = entries.iter().map(|entry| &entry.contestant).collect();
-    let answers = rounds(&contestants, "obj", &file, &[])?;
+    let answers = rounds_of(ROUNDS, &contestants, "obj", &file, &[])?;
     let reference = Figures::read(answers[0].first()?)?;
     let bytes = answers[0].first()?["file_bytes"].as_f64().context("an answer lacks the size of its file")?;
     writeln!(
