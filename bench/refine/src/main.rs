@@ -10,9 +10,12 @@ mod opensubdiv_rs;
 mod ours;
 mod subdiv_kernels;
 
+use std::fs::File;
+use std::io::BufWriter;
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
+use ogee::ControlMesh;
 use ogee_bench_cages::{exchange, gyroid};
 use serde_json::{Value, json};
 
@@ -83,12 +86,12 @@ fn write_cage(name: &str, files: &[&str]) -> Result<Value> {
     };
     let [cage, obj @ ..] = files else { bail!("{USAGE}") };
     exchange::write_cage(Path::new(cage), &mesh)?;
+    let rounded = |x: f64| (x * 1e6).round() / 1e6;
     for file in obj {
-        ogee_formats::obj::write_cage(
-            &mesh,
-            "A gyroid.",
-            std::io::BufWriter::new(std::fs::File::create(file)?),
-        )?;
+        // Six decimals, as most programs write.
+        let points = mesh.points.iter().map(|&point| <[f64; 3]>::from(point).map(rounded).into()).collect();
+        let mesh = ControlMesh { points, ..mesh.clone() };
+        ogee_formats::obj::write_cage(&mesh, "A gyroid.", BufWriter::new(File::create(file)?))?;
     }
     Ok(json!({
         "faces": mesh.faces.len(), "vertices": mesh.points.len(), "size": mesh.size(),
