@@ -2,7 +2,7 @@
 
 #pragma once
 
-#include "cage.h"
+#include "refiner.h"
 
 #include <opensubdiv/bfr/refinerSurfaceFactory.h>
 #include <opensubdiv/bfr/surface.h>

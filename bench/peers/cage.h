@@ -1,19 +1,12 @@
-// Cages and lists of samples as the benchmark hands them over, and what both ways of evaluation start from.
+// Cages and lists of samples as the benchmarks hand them over.
 
 #pragma once
 
-#include <opensubdiv/far/topologyDescriptor.h>
-#include <opensubdiv/far/topologyRefiner.h>
-
 #include <cstdint>
 #include <cstdio>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-namespace Far = OpenSubdiv::Far;
-namespace Sdc = OpenSubdiv::Sdc;
 
 // Little-endian values, read in the order in which they were written.
 class Reader {
@@ -74,27 +67,4 @@ inline std::vector<Sample> readSamples(std::string const &path) {
     Reader reader(path);
     std::uint64_t const count = reader.list<std::uint64_t>(1)[0];
     return reader.list<Sample>(count);
-}
-
-inline std::unique_ptr<Far::TopologyRefiner> connect(Cage const &cage) {
-    Far::TopologyDescriptor descriptor;
-    descriptor.numVertices = cage.vertexCount();
-    descriptor.numFaces = cage.faceCount();
-    descriptor.numVertsPerFace = cage.faceSizes.data();
-    descriptor.vertIndicesPerFace = cage.corners.data();
-    descriptor.numCreases = static_cast<int>(cage.creaseSharpness.size());
-    descriptor.creaseVertexIndexPairs = cage.creaseVertices.data();
-    descriptor.creaseWeights = cage.creaseSharpness.data();
-    descriptor.numCorners = static_cast<int>(cage.vertexSharpness.size());
-    descriptor.cornerVertexIndices = cage.sharpVertices.data();
-    descriptor.cornerWeights = cage.vertexSharpness.data();
-
-    Sdc::Options options;
-    options.SetVtxBoundaryInterpolation(cage.sharpCorners ? Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER
-                                                          : Sdc::Options::VTX_BOUNDARY_EDGE_ONLY);
-    typedef Far::TopologyRefinerFactory<Far::TopologyDescriptor> Factory;
-    std::unique_ptr<Far::TopologyRefiner> refiner(
-        Factory::Create(descriptor, Factory::Options(Sdc::SCHEME_CATMARK, options)));
-    if (!refiner) throw std::runtime_error("the cage was refused");
-    return refiner;
 }

@@ -2,7 +2,7 @@
 
 #pragma once
 
-#include "cage.h"
+#include "refiner.h"
 
 #include <opensubdiv/far/patchMap.h>
 #include <opensubdiv/far/patchTableFactory.h>

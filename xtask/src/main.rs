@@ -1,7 +1,8 @@
 //! Chores of the workspace. `models [DIR]` writes the shipped cages, `bench` times whole commands, `bench limit`
-//! evaluation beside other programs, `bench threads` what a second thread gains; `bench-worker` is a part of that. `reproduce interrogation`,
-//! `reproduce curve-networks`, `reproduce lens` and `reproduce g2` make figures and tables again, `tables [DIR]` the shipped weights of G2
-//! caps, `bless` the pictures that tests compare with.
+//! evaluation beside other programs, `bench threads` what a second thread gains; `bench-worker` is a part of that.
+//! `bench refine`, `bench animate` and `bench obj` time refinement, animated cages and reading beside other programs.
+//! `reproduce interrogation`, `reproduce curve-networks`, `reproduce lens` and `reproduce g2` make figures and tables again,
+//! `tables [DIR]` the shipped weights of G2 caps, `bless` the pictures that tests compare with.
 
 mod bench;
 mod models;
@@ -11,6 +12,7 @@ mod tables;
 use std::path::PathBuf;
 
 use anyhow::{Result, bail};
+use bench::refine::Selection;
 use mimalloc::MiMalloc;
 
 /// Keeps memory that is given back for the next who asks, thread by thread, where the system's has its pages cleared anew while
@@ -36,6 +38,13 @@ fn main() -> Result<()> {
         ["bench", "threads"] => bench::threads::compare(&mut std::io::stdout()),
         ["bench", "limit"] => bench::limit::compare(&mut std::io::stdout()),
         ["bench", "limit", task] => bench::limit::compare_times(&mut std::io::stdout(), task),
+        ["bench", "refine", ref rest @ ..] => {
+            bench::refine::refine(&mut std::io::stdout(), &Selection::parse(rest)?)
+        }
+        ["bench", "animate", ref rest @ ..] => {
+            bench::refine::animate(&mut std::io::stdout(), &Selection::parse(rest)?)
+        }
+        ["bench", "obj"] => bench::refine::obj(&mut std::io::stdout()),
         ["reproduce", "interrogation"] => {
             for line in reproduce::interrogation::write(&root())? {
                 println!("{line}");
@@ -78,7 +87,7 @@ fn main() -> Result<()> {
         }
         _ => {
             bail!(
-                "usage: cargo xtask models [DIR] | bench [limit [TASK] | threads] | reproduce interrogation|curve-networks|lens|g2 | tables [DIR] | bless"
+                "usage: cargo xtask models [DIR] | bench [limit [TASK] | threads | refine [CAGE [ROUNDS]] | animate [CAGE [ROUNDS]] | obj] | reproduce interrogation|curve-networks|lens|g2 | tables [DIR] | bless"
             )
         }
     }

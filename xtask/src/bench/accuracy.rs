@@ -10,9 +10,9 @@ use ogee::{
 use ogee_formats::{CageFormat, read_cage};
 use serde_json::Value;
 
-use super::exchange::{self, Sample};
 use super::peers::{Contestant, Found};
 use super::report::Table;
+use ogee_bench_cages::exchange::{self, Sample};
 
 /// Blender's vertices are compared on so many quads along each side of a face.
 const SIDE: u32 = 8;

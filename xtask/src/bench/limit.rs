@@ -4,15 +4,14 @@
 use std::borrow::Cow;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use anyhow::{Result, ensure};
 
 use super::cages::{self, BenchCage};
-use super::exchange;
 use super::peers::{self, Contestant, FLAGS, Found};
 use super::report::{Table, rounds};
-use super::{accuracy, speed};
+use super::{accuracy, machine, speed};
+use ogee_bench_cages::exchange;
 
 /// Samples along each side of a face, where all faces have the same.
 const SIDE: &str = "4";
@@ -123,19 +122,7 @@ fn course(folder: &Path, cage: BenchCage) -> Result<Course> {
 
 /// The machine, and who takes part in which version.
 fn heading(peers: &Peers, courses: &[Course], out: &mut impl Write) -> Result<()> {
-    let answer = |program: &str, argument: &str| {
-        let output = Command::new(program).arg(argument).output();
-        output.map_or_else(
-            |_| "unknown".into(),
-            |output| String::from_utf8_lossy(&output.stdout).trim().to_owned(),
-        )
-    };
-    let processors = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let model = processors.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
-    let model = model.map_or("unknown processor", |(_, model)| model);
-    let (date, cores) = (answer("date", "+%Y-%m-%d"), std::thread::available_parallelism()?);
-    let compiler = answer(&std::env::var("RUSTC").unwrap_or_else(|_| "rustc".into()), "--version");
-    writeln!(out, "{date}, {cores} cores of {model}, {compiler}.\n")?;
+    writeln!(out, "{}\n", machine::description()?)?;
     match &peers.opensubdiv {
         Ok(found) => {
             writeln!(

@@ -8,8 +8,8 @@ use serde_json::Value;
 
 use super::peers::Contestant;
 
-/// Rounds of every comparison; those compared take turns within a round.
-const ROUNDS: usize = 5;
+/// Rounds of a comparison, if nothing else is said; those compared take turns within a round.
+pub(crate) const ROUNDS: usize = 5;
 
 /// Answers of one contestant to the same task.
 pub(crate) struct Answers(Vec<Value>);
@@ -21,6 +21,11 @@ impl Answers {
         let mut values = values.context("an answer lacks a figure")?;
         values.sort_by(f64::total_cmp);
         Ok(Spread { median: values[values.len() / 2], least: values[0], greatest: values[values.len() - 1] })
+    }
+
+    /// The first answer, for what is the same in all.
+    pub(crate) fn first(&self) -> Result<&Value> {
+        self.0.first().context("no round was run")
     }
 
     /// Nanoseconds a point.
@@ -65,8 +70,19 @@ pub(crate) fn rounds(
     cage: &Path,
     rest: &[&str],
 ) -> Result<Vec<Answers>> {
+    rounds_of(ROUNDS, contestants, task, cage, rest)
+}
+
+/// So many rounds.
+pub(crate) fn rounds_of(
+    count: usize,
+    contestants: &[&Contestant],
+    task: &str,
+    cage: &Path,
+    rest: &[&str],
+) -> Result<Vec<Answers>> {
     let mut answers: Vec<Answers> = contestants.iter().map(|_| Answers(Vec::new())).collect();
-    for _ in 0..ROUNDS {
+    for _ in 0..count {
         for (contestant, answers) in contestants.iter().zip(&mut answers) {
             answers.0.push(contestant.run(task, cage, rest)?);
         }

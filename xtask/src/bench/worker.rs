@@ -14,7 +14,7 @@ use ogee::{
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
-use super::exchange::{self, Sample};
+use ogee_bench_cages::exchange::{self, Sample};
 
 /// Does one task and answers with one line of JSON.
 ///

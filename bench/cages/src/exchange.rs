@@ -1,22 +1,30 @@
 //! What is handed to the programs that are compared, as files of little-endian numbers: cages, places, results.
 
-use std::fs;
+use std::fs::{self, File};
+use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
 use ogee::{Boundary, ControlMesh, Corner, Crease, FaceList, Sharpness, Vec3};
 
 /// A place on the surface, by face and parameters; the corner where the face is no quad.
-#[derive(Clone, Copy)]
-pub(crate) struct Sample {
-    pub(crate) face: u32,
-    pub(crate) corner: Option<u32>,
-    pub(crate) u: f64,
-    pub(crate) v: f64,
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// The face.
+    pub face: u32,
+    /// The corner of a face that is no quad.
+    pub corner: Option<u32>,
+    /// First parameter, from 0 to 1.
+    pub u: f64,
+    /// Second parameter, from 0 to 1.
+    pub v: f64,
 }
 
 /// Header of six counts, points, face sizes, corners, creases and sharp vertices with their sharpness.
-pub(crate) fn write_cage(path: &Path, mesh: &ControlMesh) -> Result<()> {
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn write_cage(path: &Path, mesh: &ControlMesh) -> Result<()> {
     let mut out = Vec::new();
     let boundary = u32::from(mesh.scheme.boundary != Boundary::EdgeAndCorner);
     let counts = [
@@ -46,34 +54,33 @@ fn words(out: &mut Vec<u8>, values: impl Iterator<Item = u32>) {
     out.extend(values.flat_map(u32::to_le_bytes));
 }
 
-/// A cage that [`write_cage`] wrote.
-pub(crate) fn read_cage(path: &Path) -> Result<ControlMesh> {
-    let bytes = fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
-    let mut bytes = Bytes(&bytes);
-    let header = bytes.words(6)?;
-    let points = bytes.numbers(3 * header[0] as usize)?;
-    let points = points.chunks_exact(3).map(|p| Vec3::new(p[0], p[1], p[2])).collect();
-    let sizes = bytes.words(header[1] as usize)?;
-    let corners = bytes.words(header[2] as usize)?;
-    let mut faces = FaceList::with_capacity(sizes.len(), corners.len());
-    let mut rest = &corners[..];
-    for size in sizes {
-        let (face, others) = rest.split_at_checked(size as usize).context("too few corners")?;
-        faces.push(face);
-        rest = others;
-    }
-    let mut mesh = ControlMesh::new(points, faces);
-    let ends = bytes.words(2 * header[3] as usize)?;
-    let values = bytes.words(header[3] as usize)?;
-    mesh.creases = std::iter::zip(ends.chunks_exact(2), values)
+/// A cage that [`write_cage`] wrote. No memory is taken but the cage's own, so that what a program holds after this
+/// is where its measured memory starts.
+///
+/// # Errors
+/// If the file cannot be read, or is shorter than its header says.
+pub fn read_cage(path: &Path) -> Result<ControlMesh> {
+    let mut file = Numbers::open(path)?;
+    let header: [u32; 6] = file.words(6)?.as_slice().try_into()?;
+    let [vertices, faces, corners, creases, sharp_vertices, boundary] = header.map(|count| count as usize);
+    let point = |p: [u8; 24]| {
+        let coordinate = |k: usize| f64::from_le_bytes(std::array::from_fn(|byte| p[8 * k + byte]));
+        Vec3::new(coordinate(0), coordinate(1), coordinate(2))
+    };
+    let points = file.take(vertices, point)?;
+    let mesh = ControlMesh::new(points, file.faces(path, faces, corners)?);
+    let ends = file.words(2 * creases)?;
+    let values = file.words(creases)?;
+    let creases = std::iter::zip(ends.chunks_exact(2), values)
         .map(|(ends, value)| Crease { vertices: [ends[0], ends[1]], sharpness: sharpness_of(value) })
         .collect();
-    let vertices = bytes.words(header[4] as usize)?;
-    let values = bytes.words(header[4] as usize)?;
-    mesh.corners = std::iter::zip(vertices, values)
+    let numbers = file.words(sharp_vertices)?;
+    let values = file.words(sharp_vertices)?;
+    let corners = std::iter::zip(numbers, values)
         .map(|(vertex, value)| Corner { vertex, sharpness: sharpness_of(value) })
         .collect();
-    if header[5] != 0 {
+    let mut mesh = ControlMesh { creases, corners, ..mesh };
+    if boundary != 0 {
         mesh.scheme.boundary = Boundary::EdgeOnly;
     }
     Ok(mesh)
@@ -84,7 +91,10 @@ fn sharpness_of(bits: u32) -> Sharpness {
 }
 
 /// A count, then for each place its face, its corner or -1, and its parameters.
-pub(crate) fn write_samples(path: &Path, samples: &[Sample]) -> Result<()> {
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn write_samples(path: &Path, samples: &[Sample]) -> Result<()> {
     let mut out = (samples.len() as u64).to_le_bytes().to_vec();
     for sample in samples {
         words(&mut out, [sample.face, sample.corner.unwrap_or(u32::MAX)].into_iter());
@@ -94,14 +104,16 @@ pub(crate) fn write_samples(path: &Path, samples: &[Sample]) -> Result<()> {
 }
 
 /// Places that [`write_samples`] wrote.
-pub(crate) fn read_samples(path: &Path) -> Result<Vec<Sample>> {
-    let bytes = fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
-    let mut bytes = Bytes(&bytes);
-    let count = bytes.words(2)?;
-    let mut samples = Vec::with_capacity(count[0] as usize);
-    for _ in 0..count[0] {
-        let place = bytes.words(2)?;
-        let parameters = bytes.numbers(2)?;
+///
+/// # Errors
+/// If the file cannot be read, or is shorter than its header says.
+pub fn read_samples(path: &Path) -> Result<Vec<Sample>> {
+    let mut file = Numbers::open(path)?;
+    let count = file.words(2)?[0];
+    let mut samples = Vec::with_capacity(count as usize);
+    for _ in 0..count {
+        let place = file.words(2)?;
+        let parameters = file.numbers(2)?;
         let corner = (place[1] != u32::MAX).then_some(place[1]);
         samples.push(Sample { face: place[0], corner, u: parameters[0], v: parameters[1] });
     }
@@ -109,21 +121,32 @@ pub(crate) fn read_samples(path: &Path) -> Result<Vec<Sample>> {
 }
 
 /// Numbers one after the other.
-pub(crate) fn write_numbers(path: &Path, numbers: impl Iterator<Item = f64>) -> Result<()> {
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn write_numbers(path: &Path, numbers: impl Iterator<Item = f64>) -> Result<()> {
     let bytes: Vec<u8> = numbers.flat_map(f64::to_le_bytes).collect();
     fs::write(path, bytes).with_context(|| format!("cannot write {}", path.display()))
 }
 
 /// All numbers of a file.
-pub(crate) fn read_numbers(path: &Path) -> Result<Vec<f64>> {
-    let bytes = fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
-    Bytes(&bytes).numbers(bytes.len() / 8)
+///
+/// # Errors
+/// If the file cannot be read.
+pub fn read_numbers(path: &Path) -> Result<Vec<f64>> {
+    let length = fs::metadata(path).with_context(|| format!("cannot read {}", path.display()))?.len();
+    Numbers::open(path)?.numbers(length as usize / 8)
 }
 
-/// What is left of a file.
-struct Bytes<'a>(&'a [u8]);
+/// A file that is read from its beginning.
+struct Numbers(BufReader<File>);
 
-impl Bytes<'_> {
+impl Numbers {
+    fn open(path: &Path) -> Result<Numbers> {
+        let file = File::open(path).with_context(|| format!("cannot read {}", path.display()))?;
+        Ok(Numbers(BufReader::new(file)))
+    }
+
     fn words(&mut self, count: usize) -> Result<Vec<u32>> {
         self.take(count, u32::from_le_bytes)
     }
@@ -133,15 +156,42 @@ impl Bytes<'_> {
     }
 
     fn take<const SIZE: usize, T>(&mut self, count: usize, from: impl Fn([u8; SIZE]) -> T) -> Result<Vec<T>> {
-        ensure!(self.0.len() >= SIZE * count, "a file ends too early");
-        let (taken, rest) = self.0.split_at(SIZE * count);
-        self.0 = rest;
-        taken.chunks_exact(SIZE).map(|bytes| Ok(from(bytes.try_into()?))).collect()
+        let mut taken = Vec::with_capacity(count);
+        for _ in 0..count {
+            taken.push(from(self.next()?));
+        }
+        Ok(taken)
+    }
+
+    fn next<const SIZE: usize>(&mut self) -> Result<[u8; SIZE]> {
+        let mut bytes = [0; SIZE];
+        self.0.read_exact(&mut bytes).context("a file ends too early")?;
+        Ok(bytes)
+    }
+
+    /// Sizes of faces and then their corners, of the file that this is: read side by side.
+    fn faces(&mut self, path: &Path, count: usize, corner_count: usize) -> Result<FaceList> {
+        let mut corners = Numbers::open(path)?;
+        let start = self.0.stream_position()? + 4 * count as u64;
+        corners.0.seek(SeekFrom::Start(start))?;
+        let mut faces = FaceList::with_capacity(count, corner_count);
+        let mut face = Vec::new();
+        for _ in 0..count {
+            let size = u32::from_le_bytes(self.next()?);
+            face.clear();
+            for _ in 0..size {
+                face.push(u32::from_le_bytes(corners.next()?));
+            }
+            faces.push(&face);
+        }
+        ensure!(faces.corners().len() == corner_count, "sizes of faces and the number of corners disagree");
+        self.0.seek_relative(4 * corner_count as i64)?;
+        Ok(faces)
     }
 }
 
 /// `count` places, faces and parameters uniformly random, the same in every run.
-pub(crate) fn scattered(faces: usize, count: usize) -> Vec<Sample> {
+pub fn scattered(faces: usize, count: usize) -> Vec<Sample> {
     let mut state = 1_u64;
     // SplitMix64.
     let mut next = move || {
