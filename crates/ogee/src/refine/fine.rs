@@ -91,19 +91,30 @@ impl Level {
         quads.map(|(_, quad)| [quad[0], quad[1], quad[2], quad[3]]).collect()
     }
 
+    /// How many faces there are after so many steps.
+    pub(super) fn faces_at(&self, depth: u32) -> u128 {
+        let topology = self.topology();
+        match depth {
+            0 => topology.face_count() as u128,
+            _ => (topology.halfedge_count() as u128) << (2 * (depth.min(46) - 1)),
+        }
+    }
+
+    /// The most bytes that [`Level::fine_mesh`] holds on its way to a depth, what is there before left out. Known from counts alone,
+    /// to be asked before anything is allocated.
+    pub fn fine_mesh_bytes(&self, depth: u32) -> u128 {
+        self.faces_at(depth) * BYTES_PER_FACE
+    }
+
     /// Asks whether `depth` steps fit into ids and into `memory` bytes.
     ///
     /// # Errors
     /// If they do not.
     pub fn check_depth(&self, depth: u32, memory: u64) -> Result<(), TooDeep> {
-        let halfedges = self.topology().halfedge_count() as u128;
-        let faces = |depth: u32| match depth {
-            0 => self.topology().face_count() as u128,
-            _ => halfedges << (2 * (depth.min(46) - 1)),
-        };
+        let faces = |depth: u32| self.faces_at(depth);
         // Ids of halfedges are below 2^32 - 1 on every level that has halfedges, so four a face on the last.
         let fits = |depth: u32| {
-            4 * faces(depth) < u128::from(u32::MAX) && faces(depth) * BYTES_PER_FACE <= u128::from(memory)
+            4 * faces(depth) < u128::from(u32::MAX) && self.fine_mesh_bytes(depth) <= u128::from(memory)
         };
         if depth == 0 || fits(depth) {
             return Ok(());

@@ -15,8 +15,18 @@ pub(super) fn refine<C: Connectivity, T: Components>(
     interiors: &mut [T],
     room: usize,
 ) {
+    refine_from(frame, 0, interiors, room);
+}
+
+/// The same for some quads, from `first` on.
+pub(super) fn refine_from<C: Connectivity, T: Components>(
+    frame: &Frame<'_, C, T>,
+    first: usize,
+    interiors: &mut [T],
+    room: usize,
+) {
     par::chunks(interiors, room, Memory::default, |memory, f, points| {
-        dispatch(Refine { frame, face: FaceId(f as u32), points, memory });
+        dispatch(Refine { frame, face: FaceId((first + f) as u32), points, memory });
     });
 }
 

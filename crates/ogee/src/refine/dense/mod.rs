@@ -15,5 +15,6 @@ mod levels;
 mod numbering;
 mod plan;
 mod sides;
+mod stream;
 
 pub use plan::DenseRefinement;

@@ -30,12 +30,12 @@ use crate::rules::Level;
 /// sharpness along edges, levels are made after all.
 #[derive(Clone, Debug)]
 pub struct DenseRefinement<'a> {
-    cage: &'a Level,
-    way: Way<'a>,
+    pub(super) cage: &'a Level,
+    pub(super) way: Way<'a>,
 }
 
 #[derive(Clone, Debug)]
-enum Way<'a> {
+pub(super) enum Way<'a> {
     /// One step of a cage with other polygons, whose first level is nobody's base.
     Step,
     /// Grids over a level of quads.
@@ -140,7 +140,11 @@ impl DenseRefinement<'_> {
         }
     }
 
-    fn base_values<'v, T: Components>(&self, base: &Cow<'_, Level>, cage: &'v [T]) -> Cow<'v, [T]> {
+    pub(super) fn base_values<'v, T: Components>(
+        &self,
+        base: &Cow<'_, Level>,
+        cage: &'v [T],
+    ) -> Cow<'v, [T]> {
         match base {
             Cow::Borrowed(_) => Cow::Borrowed(cage),
             Cow::Owned(_) => {
@@ -176,7 +180,7 @@ impl DenseRefinement<'_> {
     }
 }
 
-fn refine<C: Connectivity, T: Components>(
+pub(super) fn refine<C: Connectivity, T: Components>(
     base: &Level,
     quads: &C,
     numbering: &Numbering,
