@@ -4,7 +4,6 @@ pub(crate) mod par;
 
 pub(crate) mod bounds;
 pub(crate) mod circulant;
-pub(crate) mod fresh;
 mod grid;
 mod interpolate;
 mod jet;

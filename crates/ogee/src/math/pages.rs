@@ -1,6 +1,8 @@
 //! Room for large arrays. Memory that a program writes for the first time is cleared by the system, a page at a time; where
 //! pages are large that is several times faster. Systems hand them out to those who ask.
 
+use bytemuck::{Zeroable, zeroed_vec};
+
 /// Size in bytes from which asking is worth it: two large pages of the common processors.
 const LARGE: usize = 4 << 20;
 
@@ -24,6 +26,19 @@ pub(crate) fn reserve_exact<T>(vector: &mut Vec<T>, additional: usize) {
     if vector.capacity() - vector.len() < additional {
         vector.reserve_exact(additional);
         advise(vector);
+    }
+}
+
+/// Makes room for `count` values that are about to be written, all of them. What is there already stays what it was, fresh memory
+/// is zero as the system hands it out.
+pub(crate) fn resize<T: Zeroable + Clone>(values: &mut Vec<T>, count: usize) {
+    if values.capacity() < count {
+        // What there is goes back before the new memory is asked for.
+        *values = Vec::new();
+        *values = zeroed_vec(count);
+        advise(values);
+    } else {
+        values.resize(count, T::zeroed());
     }
 }
 
@@ -66,6 +81,16 @@ mod tests {
             assert!(numbers.capacity() >= count + LARGE);
             assert!(numbers.iter().copied().eq(0..count as u64));
         }
+    }
+
+    #[test]
+    fn old_memory_is_used_again() {
+        let mut numbers = vec![7_u64; 10];
+        let room = numbers.as_ptr();
+        resize(&mut numbers, 5);
+        assert_eq!((numbers.as_ptr(), &numbers[..]), (room, &[7; 5][..]));
+        resize(&mut numbers, LARGE);
+        assert!(numbers.len() == LARGE && numbers.iter().all(|&number| number == 0));
     }
 
     #[test]

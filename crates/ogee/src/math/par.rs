@@ -96,6 +96,17 @@ pub(crate) fn join(a: impl FnOnce() + Send, b: impl FnOnce() + Send) {
     }
 }
 
+/// Writes `f(0), f(1), ..` over what is there, on all cores.
+pub(crate) fn fill<T: Send>(out: &mut [T], f: impl Fn(usize) -> T + Sync + Send) {
+    #[cfg(feature = "rayon")]
+    if out.len() > CHUNK {
+        use rayon::prelude::*;
+        out.par_iter_mut().with_min_len(CHUNK).enumerate().for_each(|(i, value)| *value = f(i));
+        return;
+    }
+    out.iter_mut().enumerate().for_each(|(i, value)| *value = f(i));
+}
+
 /// `f(0, chunk 0), f(1, chunk 1), ..` of the chunks of `size` values on all cores; calls that a thread makes one after the other
 /// share memory.
 pub(crate) fn chunks<T: Send, M>(

@@ -65,20 +65,21 @@ fn refine<T: Interpolate>(
 ) {
     let (vertices, faces, edges) = (topology.vertex_count(), topology.face_count(), topology.edge_count());
     let points = &points[..vertices];
-    let face_points = par::collect(faces, |f| {
+    out.resize(vertices + faces + edges, T::zero());
+    let (vertex_points, rest) = out.split_at_mut(vertices);
+    let (face_points, edge_points) = rest.split_at_mut(faces);
+    par::fill(face_points, |f| {
         let f = FaceId(f as u32);
         (tagged.face)(f).unwrap_or_else(|| face_point(topology, f, points))
     });
-    out.clear();
-    out.reserve(vertices + faces + edges);
-    par::extend(out, vertices, |v| {
+    let face_points = &*face_points;
+    par::fill(vertex_points, |v| {
         let v = VertexId(v as u32);
-        (tagged.vertex)(v).unwrap_or_else(|| vertex_point(topology, boundary, v, points, &face_points))
+        (tagged.vertex)(v).unwrap_or_else(|| vertex_point(topology, boundary, v, points, face_points))
     });
-    out.extend_from_slice(&face_points);
-    par::extend(out, edges, |e| {
+    par::fill(edge_points, |e| {
         let e = EdgeId(e as u32);
-        (tagged.edge)(e).unwrap_or_else(|| edge_point(topology, topology.side(e), points, &face_points))
+        (tagged.edge)(e).unwrap_or_else(|| edge_point(topology, topology.side(e), points, face_points))
     });
 }
 

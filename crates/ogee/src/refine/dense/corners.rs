@@ -8,10 +8,10 @@ use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::rules::{Level, masks};
 use crate::stencil::Row;
 
-/// What becomes of all corners in one step.
-pub(super) fn refine<C: Connectivity, T: Components>(rules: &Level, grids: &Grids<'_, C, T>) -> Vec<T> {
+/// Refines all corners into `out`.
+pub(super) fn refine<C: Connectivity, T: Components>(rules: &Level, grids: &Grids<'_, C, T>, out: &mut [T]) {
     let (_, tagged) = rules.tagged_rules();
-    par::collect(grids.frame.corners.len(), |v| {
+    par::fill(out, |v| {
         let v = VertexId(v as u32);
         let untagged = tagged.is_empty() || tagged.get(v.0).is_none();
         untagged.then(|| smooth(grids, v)).flatten().unwrap_or_else(|| by_rule(rules, grids, v))

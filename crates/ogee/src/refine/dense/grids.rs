@@ -14,35 +14,31 @@ pub(super) struct Frame<'a, C, T> {
     pub(super) sides: &'a [T],
 }
 
-/// A frame, and what is inside.
+/// A frame, and the points inside each quad, row after row.
 pub(super) struct Grids<'a, C, T> {
-    pub(super) frame: &'a Frame<'a, C, T>,
-    /// `room` points for each quad, as many as the last level needs; those of this level stand in front, row after row.
+    pub(super) frame: Frame<'a, C, T>,
     pub(super) interiors: &'a [T],
-    pub(super) room: usize,
 }
 
 impl<C: Connectivity, T: Components> Frame<'_, C, T> {
-    /// The points inside an edge, and true if they run against the halfedge.
+    /// The points inside an edge, in the order of the halfedge.
     #[inline(always)]
-    pub(super) fn side(&self, h: HalfedgeId) -> (&[T], bool) {
+    pub(super) fn side(&self, h: HalfedgeId) -> Side<'_, T> {
         let edge = self.base.edge(h);
         let count = self.side - 1;
-        (&self.sides[edge.index() * count..][..count], self.base.side(edge) != h)
+        Side { points: &self.sides[edge.index() * count..][..count], reversed: self.base.side(edge) != h }
     }
 
     /// The first point inside a halfedge's edge.
     #[inline(always)]
     pub(super) fn first(&self, h: HalfedgeId) -> T {
-        let (points, reversed) = self.side(h);
-        points[if reversed { points.len() - 1 } else { 0 }]
+        self.side(h).at(1)
     }
 
     /// The last point inside a halfedge's edge.
     #[inline(always)]
     pub(super) fn last(&self, h: HalfedgeId) -> T {
-        let (points, reversed) = self.side(h);
-        points[if reversed { 0 } else { points.len() - 1 }]
+        self.side(h).at(self.side - 1)
     }
 
     /// The corner at a vertex of the base level.
@@ -50,40 +46,39 @@ impl<C: Connectivity, T: Components> Frame<'_, C, T> {
     pub(super) fn corner(&self, v: VertexId) -> T {
         self.corners[v.index()]
     }
+}
 
-    /// Row `i` of a quad's grid, along v, from side to side.
+/// The points inside an edge as a halfedge meets them.
+#[derive(Clone, Copy)]
+pub(super) struct Side<'a, T> {
+    points: &'a [T],
+    reversed: bool,
+}
+
+impl<T: Components> Side<'_, T> {
+    /// Point `t`, from 1 on.
     #[inline(always)]
-    pub(super) fn row(&self, f: FaceId, i: usize, interior: &[T], out: &mut [T]) {
-        let n = self.side;
-        let h = [0, 1, 2, 3].map(|k| HalfedgeId(4 * f.0 + k));
-        if i == 0 || i == n {
-            // Against the last halfedge, or along the second.
-            let (h, against) = if i == 0 { (h[3], true) } else { (h[1], false) };
-            let (points, reversed) = self.side(h);
-            out[1..n].copy_from_slice(points);
-            let [from, to] = [self.base.origin(h), self.base.target(h)].map(|v| self.corner(v));
-            [out[0], out[n]] = if against { [to, from] } else { [from, to] };
-            if reversed != against {
-                out[1..n].reverse();
-            }
-            return;
+    pub(super) fn at(self, t: usize) -> T {
+        self.points[if self.reversed { self.points.len() - t } else { t - 1 }]
+    }
+
+    /// All of them, or all in the other order.
+    #[inline(always)]
+    pub(super) fn copy(self, backwards: bool, out: &mut [T]) {
+        if self.reversed == backwards {
+            out.copy_from_slice(self.points);
+        } else {
+            out.iter_mut().zip(self.points.iter().rev()).for_each(|(out, point)| *out = *point);
         }
-        let at = |h: HalfedgeId, t: usize| {
-            let (points, reversed) = self.side(h);
-            points[if reversed { n - 1 - t } else { t - 1 }]
-        };
-        out[0] = at(h[0], i);
-        out[1..n].copy_from_slice(&interior[(i - 1) * (n - 1)..i * (n - 1)]);
-        out[n] = at(h[2], n - i);
     }
 }
 
 impl<C: Connectivity, T: Components> Grids<'_, C, T> {
     /// The points inside a quad, row after row.
     #[inline(always)]
-    fn interior(&self, f: FaceId) -> &[T] {
-        let count = self.frame.side - 1;
-        &self.interiors[f.index() * self.room..][..count * count]
+    pub(super) fn interior(&self, f: FaceId) -> &[T] {
+        let count = (self.frame.side - 1) * (self.frame.side - 1);
+        &self.interiors[f.index() * count..][..count]
     }
 
     /// The point inside the face that is next to the origin of the halfedge.
@@ -92,18 +87,25 @@ impl<C: Connectivity, T: Components> Grids<'_, C, T> {
         self.interior(self.frame.base.face(h))[self.row_beside(h).0]
     }
 
-    /// Point `m` of the row of a face next to one of its halfedges, `0 <= m <= side`; the first and the last are on edges.
+    /// Adds `weight` times the row of a face next to one of its halfedges, from edge to edge: against the halfedge if
+    /// `backwards`.
     #[inline(always)]
-    pub(super) fn beside_at(&self, h: HalfedgeId, m: usize) -> T {
-        let base = self.frame.base;
-        if m == 0 {
-            return self.frame.last(base.prev(h));
+    pub(super) fn add_row_beside(&self, h: HalfedgeId, backwards: bool, weight: f64, out: &mut [T]) {
+        let (frame, n) = (&self.frame, self.frame.side);
+        let ends = [frame.last(frame.base.prev(h)), frame.first(frame.base.next(h))];
+        let (first, step) = self.row_beside(h);
+        let inside = self.interior(frame.base.face(h));
+        let (mut at, step) = if backwards {
+            (first.wrapping_add_signed((n as isize - 2) * step), -step)
+        } else {
+            (first, step)
+        };
+        out[0].add_scaled(weight, &ends[usize::from(backwards)]);
+        for point in &mut out[1..n] {
+            point.add_scaled(weight, &inside[at]);
+            at = at.wrapping_add_signed(step);
         }
-        if m == self.frame.side {
-            return self.frame.first(base.next(h));
-        }
-        let (start, step) = self.row_beside(h);
-        self.interior(base.face(h))[start.wrapping_add_signed((m as isize - 1) * step)]
+        out[n].add_scaled(weight, &ends[usize::from(!backwards)]);
     }
 
     /// Where the row of points inside a face next to one of its halfedges begins, and the step to the next one.

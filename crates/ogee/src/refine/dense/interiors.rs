@@ -1,32 +1,28 @@
-//! The points inside quads: a grid is refined within its own place.
+//! The points inside quads: what is new there depends on nothing but the grid and its sides.
 
 use bytemuck::{cast_slice, cast_slice_mut};
 
-use super::grids::Frame;
+use super::grids::Grids;
 use super::kernel::{along, edge_row, vertex_row};
 use crate::math::simd::{Four, Kernel, dispatch};
 use crate::math::{Components, par};
-use crate::mesh::FaceId;
 use crate::mesh::connectivity::Connectivity;
+use crate::mesh::{FaceId, HalfedgeId};
 
-/// Refines the insides of all quads, `room` points for each, from `frame.side` cells a side to twice as many.
-pub(super) fn refine<C: Connectivity, T: Components>(
-    frame: &Frame<'_, C, T>,
-    interiors: &mut [T],
-    room: usize,
-) {
-    refine_from(frame, 0, interiors, room);
+/// Refines the insides of all quads into `out`, `(2 side - 1)^2` points for each.
+pub(super) fn refine<C: Connectivity, T: Components>(grids: &Grids<'_, C, T>, out: &mut [T]) {
+    refine_from(grids, 0, out);
 }
 
 /// The same for some quads, from `first` on.
 pub(super) fn refine_from<C: Connectivity, T: Components>(
-    frame: &Frame<'_, C, T>,
+    grids: &Grids<'_, C, T>,
     first: usize,
-    interiors: &mut [T],
-    room: usize,
+    out: &mut [T],
 ) {
-    par::chunks(interiors, room, Memory::default, |memory, f, points| {
-        dispatch(Refine { frame, face: FaceId((first + f) as u32), points, memory });
+    let width = 2 * grids.frame.side - 1;
+    par::chunks(out, width * width, Memory::default, |memory, f, out| {
+        dispatch(Refine { grids, face: FaceId((first + f) as u32), memory, out });
     });
 }
 
@@ -46,10 +42,10 @@ impl<T> Default for Memory<T> {
 }
 
 struct Refine<'a, C, T> {
-    frame: &'a Frame<'a, C, T>,
+    grids: &'a Grids<'a, C, T>,
     face: FaceId,
-    points: &'a mut [T],
     memory: &'a mut Memory<T>,
+    out: &'a mut [T],
 }
 
 impl<C: Connectivity, T: Components> Kernel for Refine<'_, C, T> {
@@ -57,25 +53,44 @@ impl<C: Connectivity, T: Components> Kernel for Refine<'_, C, T> {
 
     #[inline(always)]
     fn run<V: Four>(self) {
-        let Refine { frame, face, points, memory } = self;
+        let Refine { grids, face, memory, out } = self;
+        let frame = &grids.frame;
+        let points = grids.interior(face);
         let n = frame.side;
         let width = 2 * n - 1;
         memory.row.resize(n + 1, T::zero());
         memory.rows.resize((n + 1) * width, T::zero());
-        for (i, out) in memory.rows.chunks_exact_mut(width).enumerate() {
-            frame.row(face, i, &points[..(n - 1) * (n - 1)], &mut memory.row);
-            along(&memory.row, out);
+        let h = 4 * face.0;
+        let [h0, h1, h2, h3] = [HalfedgeId(h), HalfedgeId(h + 1), HalfedgeId(h + 2), HalfedgeId(h + 3)];
+        let corner = |h: HalfedgeId| frame.corner(frame.base.origin(h));
+        let [first, last] = [frame.side(h0), frame.side(h2)];
+        let row = &mut memory.row[..n + 1];
+        let rows = &mut memory.rows[..(n + 1) * width];
+        row[0] = corner(h0);
+        frame.side(h3).copy(true, &mut row[1..n]);
+        row[n] = corner(h3);
+        along(row, &mut rows[..width]);
+        for i in 1..n {
+            row[0] = first.at(i);
+            row[1..n].copy_from_slice(&points[(i - 1) * (n - 1)..i * (n - 1)]);
+            row[n] = last.at(n - i);
+            along(row, &mut rows[i * width..(i + 1) * width]);
         }
-        let rows: &[f64] = cast_slice(&memory.rows);
+        row[0] = corner(h1);
+        frame.side(h1).copy(false, &mut row[1..n]);
+        row[n] = corner(h2);
+        along(row, &mut rows[n * width..]);
+
+        let rows: &[f64] = cast_slice(rows);
         let width = width * T::COUNT;
         let row = |m: usize| &rows[m * width..(m + 1) * width];
-        let out: &mut [f64] = cast_slice_mut(&mut points[..(2 * n - 1) * (2 * n - 1)]);
-        let (pairs, last) = out.split_at_mut(2 * (n - 1) * width);
-        for (m, pair) in pairs.chunks_exact_mut(2 * width).enumerate() {
-            let (first, second) = pair.split_at_mut(width);
-            edge_row([row(m), row(m + 1)], first);
-            vertex_row([row(m), row(m + 1), row(m + 2)], second);
+        let out: &mut [f64] = cast_slice_mut(out);
+        for m in 0..n {
+            edge_row([row(m), row(m + 1)], &mut out[2 * m * width..(2 * m + 1) * width]);
+            if m + 1 < n {
+                let rows = [row(m), row(m + 1), row(m + 2)];
+                vertex_row(rows, &mut out[(2 * m + 1) * width..(2 * m + 2) * width]);
+            }
         }
-        edge_row([row(n - 1), row(n)], last);
     }
 }

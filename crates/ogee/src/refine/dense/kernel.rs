@@ -29,16 +29,20 @@ pub(super) fn along<T: Components>(row: &[T], out: &mut [T]) {
 /// The row between two rows.
 #[inline(always)]
 pub(super) fn edge_row(rows: [&[f64]; 2], out: &mut [f64]) {
-    for ((out, a), b) in out.iter_mut().zip(rows[0]).zip(rows[1]) {
-        *out = edge(*a, *b);
+    let count = out.len();
+    let [a, b] = [&rows[0][..count], &rows[1][..count]];
+    for i in 0..count {
+        out[i] = edge(a[i], b[i]);
     }
 }
 
 /// What becomes of the middle one of three rows.
 #[inline(always)]
 pub(super) fn vertex_row(rows: [&[f64]; 3], out: &mut [f64]) {
-    for (((out, a), b), c) in out.iter_mut().zip(rows[0]).zip(rows[1]).zip(rows[2]) {
-        *out = vertex(*a, *b, *c);
+    let count = out.len();
+    let [a, b, c] = [&rows[0][..count], &rows[1][..count], &rows[2][..count]];
+    for i in 0..count {
+        out[i] = vertex(a[i], b[i], c[i]);
     }
 }
 

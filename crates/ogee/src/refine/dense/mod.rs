@@ -3,9 +3,6 @@
 //! A step of refinement of a grid is the tensor product of the uniform cubic B-spline's: no connectivity, no numbers of
 //! neighbours, memory read and written in order. Only the corners of the base quads ask the rule table, over the base level's
 //! own connectivity: around a corner every level looks the same. Sides of quads are rows that two grids share.
-//!
-//! Points stand where the last level will have them from the first step on: each grid is refined within its own place, so
-//! that nothing but one row a side is held twice.
 
 mod corners;
 mod grids;

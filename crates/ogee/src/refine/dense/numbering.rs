@@ -45,38 +45,28 @@ impl Numbering {
         self.vertices + self.faces * self.per_face()
     }
 
-    /// The number of point `t` of a halfedge, `0 <= t <= side`, from its origin.
-    fn on_halfedge(&self, base: &impl Connectivity, h: HalfedgeId, t: usize) -> u32 {
-        if t == 0 {
-            return base.origin(h).0;
-        }
-        if t == self.side {
-            return base.target(h).0;
-        }
-        let edge = base.edge(h);
-        let along = if base.side(edge) == h { t - 1 } else { self.side - 1 - t };
-        (self.edge_start() + edge.index() * self.per_edge() + along) as u32
+    /// At corners, inside quads, inside edges.
+    pub(super) fn parts<'a, T>(&self, points: &'a [T]) -> [&'a [T]; 3] {
+        let (corners, rest) = points.split_at(self.vertices);
+        let (interiors, sides) = rest.split_at(self.faces * self.per_face());
+        [corners, interiors, sides]
     }
 
-    /// The numbers of row `i` of quad `f`: `side + 1` of them, along v.
-    pub(crate) fn row(&self, base: &impl Connectivity, f: FaceId, i: usize, out: &mut [u32]) {
-        let n = self.side;
-        let h = [0, 1, 2, 3].map(|k| HalfedgeId(4 * f.0 + k));
-        if i == 0 {
-            out.iter_mut().enumerate().for_each(|(j, id)| *id = self.on_halfedge(base, h[3], n - j));
-        } else if i == n {
-            out.iter_mut().enumerate().for_each(|(j, id)| *id = self.on_halfedge(base, h[1], j));
-        } else {
-            let first = (self.vertices + f.index() * self.per_face() + (i - 1) * (n - 1)) as u32;
-            out[0] = self.on_halfedge(base, h[0], i);
-            for (id, j) in out[1..n].iter_mut().zip(0..) {
-                *id = first + j;
-            }
-            out[n] = self.on_halfedge(base, h[2], n - i);
+    /// The numbers on a halfedge from its origin to its target, and how to reach those between.
+    #[inline(always)]
+    fn side(&self, base: &impl Connectivity, h: HalfedgeId) -> Side {
+        let edge = base.edge(h);
+        let start = (self.edge_start() + edge.index() * self.per_edge()) as u32;
+        let along = base.side(edge) == h;
+        Side {
+            origin: base.origin(h).0,
+            before: if along { start.wrapping_sub(1) } else { start + self.per_edge() as u32 },
+            step: if along { 1 } else { 1_u32.wrapping_neg() },
         }
     }
 
     /// The quads over quad `f`, `side^2` of them: cell `(i, j)` at `i side + j`, from its corner `(i, j)` on along u.
+    #[inline(always)]
     pub(crate) fn quads(
         &self,
         base: &impl Connectivity,
@@ -84,17 +74,61 @@ impl Numbering {
         rows: &mut [Vec<u32>; 2],
         out: &mut [[u32; 4]],
     ) {
+        let n = self.side;
+        let side = |k: u32| self.side(base, HalfedgeId(4 * f.0 + k));
+        let sides = [side(0), side(1), side(2), side(3)];
+        let inside = (self.vertices + f.index() * self.per_face()) as u32;
+        if n == 2 {
+            let [a, b, c, d] = sides.map(|side| side.origin);
+            let [ab, bc, cd, da] = sides.map(|side| side.at(1));
+            out.copy_from_slice(&[
+                [a, ab, inside, da],
+                [da, inside, cd, d],
+                [ab, b, bc, inside],
+                [inside, bc, c, cd],
+            ]);
+            return;
+        }
         let [low, high] = rows;
-        low.resize(self.side + 1, 0);
-        high.resize(self.side + 1, 0);
-        self.row(base, f, 0, low);
-        for (i, cells) in out.chunks_exact_mut(self.side).enumerate() {
-            self.row(base, f, i + 1, high);
-            for (cell, (low, high)) in cells.iter_mut().zip(low.windows(2).zip(high.windows(2))) {
-                *cell = [low[0], high[0], high[1], low[1]];
+        low.resize(n + 1, 0);
+        high.resize(n + 1, 0);
+        low[0] = sides[0].origin;
+        low[n] = sides[3].origin;
+        (1..n).for_each(|j| low[j] = sides[3].at(n - j));
+        for (i, cells) in (1..=n).zip(out.chunks_exact_mut(n)) {
+            if i < n {
+                high[0] = sides[0].at(i);
+                let first = inside + ((i - 1) * (n - 1)) as u32;
+                high[1..n].iter_mut().zip(first..).for_each(|(id, number)| *id = number);
+                high[n] = sides[2].at(n - i);
+            } else {
+                high[0] = sides[1].origin;
+                high[n] = sides[2].origin;
+                (1..n).for_each(|j| high[j] = sides[1].at(j));
+            }
+            let [from, to] = [&low[..n + 1], &high[..n + 1]];
+            for j in 0..n {
+                cells[j] = [from[j], to[j], to[j + 1], from[j + 1]];
             }
             std::mem::swap(low, high);
         }
+    }
+}
+
+/// The numbers along a halfedge.
+#[derive(Clone, Copy, Debug)]
+struct Side {
+    origin: u32,
+    /// One step before the first number inside.
+    before: u32,
+    step: u32,
+}
+
+impl Side {
+    /// The number of point `t`, `0 < t < side`.
+    #[inline(always)]
+    fn at(self, t: usize) -> u32 {
+        self.before.wrapping_add(self.step.wrapping_mul(t as u32))
     }
 }
 

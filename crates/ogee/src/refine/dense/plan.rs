@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::grids::{Frame, Grids};
 use super::numbering::Numbering;
 use super::{corners, interiors, levels, sides};
-use crate::math::{Components, fresh, par};
+use crate::math::{Components, pages, par};
 use crate::mesh::connectivity::Connectivity;
 use crate::mesh::{FaceId, HalfedgeId};
 use crate::refine::TooDeep;
@@ -26,7 +26,7 @@ use crate::rules::Level;
 /// and the quads over quad `f` are `f side^2 ..`, cell `(i, j)` at `i side + j`, each from its corner `(i, j)` on along u. Those
 /// over hidden faces are left out.
 ///
-/// Beside the results a step holds about one row of points an edge. Where curves meet, and where Chaikin's rule spreads
+/// Beside the results the last step holds the points of the level before, a quarter as many. Where curves meet, and where Chaikin's rule spreads
 /// sharpness along edges, levels are made after all.
 #[derive(Clone, Debug)]
 pub struct DenseRefinement<'a> {
@@ -125,10 +125,14 @@ impl DenseRefinement<'_> {
     /// If there are fewer values than vertices of the cage.
     pub fn points<T: Components>(&self, cage: &[T], out: &mut Vec<T>) {
         match &self.way {
-            Way::Step => self.cage.child_points(cage, out),
+            Way::Step => {
+                pages::resize(out, self.vertex_count());
+                self.cage.child_points(cage, out);
+            }
             Way::Grids { base, numbering, steps, rules } => {
                 let values = self.base_values(base, cage);
                 if *steps == 1 {
+                    pages::resize(out, numbering.count());
                     base.child_points(&values, out);
                 } else if let Some(quads) = base.topology().as_quads() {
                     refine(base, &quads, numbering, rules, &values, out);
@@ -172,7 +176,7 @@ impl DenseRefinement<'_> {
             [] => Vec::new(),
             _ => (0..numbering.faces as u32).filter(|&f| base.is_visible(FaceId(f))).collect(),
         };
-        fresh::resize(out, self.face_count());
+        pages::resize(out, self.face_count());
         par::chunks(out, numbering.side * numbering.side, Default::default, |rows, f, out| {
             let f = visible.get(f).copied().unwrap_or(f as u32);
             numbering.quads(&quads, FaceId(f), rows, out);
@@ -188,39 +192,38 @@ pub(super) fn refine<C: Connectivity, T: Components>(
     values: &[T],
     out: &mut Vec<T>,
 ) {
-    fresh::resize(out, numbering.count());
-    let room = numbering.per_face();
-    let (own_corners, rest) = out.split_at_mut(numbering.vertices);
-    let (own_interiors, own_sides) = rest.split_at_mut(numbering.faces * room);
-
-    let mut first = Vec::new();
-    base.child_points(values, &mut first);
-    let (points, rest) = first.split_at(numbering.vertices);
-    let (middles, mids) = rest.split_at(numbering.faces);
-    let mut corners = points.to_vec();
-    let mut sides = mids.to_vec();
-    par::chunks(own_interiors, room, || (), |(), f, inside| inside[0] = middles[f]);
-    drop(first);
-
-    let mut side = 2;
-    let mut step = 0;
-    while side < numbering.side {
-        let rules = rules.get(step).or(rules.last()).unwrap_or(base);
-        let frame = Frame { base: quads, side, corners: &corners, sides: &sides };
-        let grids = Grids { frame: &frame, interiors: own_interiors, room };
-        let next_corners = corners::refine(rules, &grids);
-        let last = 2 * side == numbering.side;
-        let mut next_sides = Vec::new();
-        if last {
-            sides::refine(rules, &grids, own_sides);
+    pages::resize(out, numbering.count());
+    let mut points = Vec::new();
+    pages::resize(&mut points, numbering.vertices + numbering.faces + numbering.edges);
+    base.child_points(values, &mut points);
+    let mut faded = rules.iter();
+    let mut rules = base;
+    for side in (1..).map(|step| 1 << step).take_while(|&side| side < numbering.side) {
+        let level = Numbering { side, ..*numbering };
+        let [corners, interiors, sides] = level.parts(&points);
+        let grids = Grids { frame: Frame { base: quads, side, corners, sides }, interiors };
+        rules = faded.next().unwrap_or(rules);
+        if 2 * side == numbering.side {
+            refine_once(rules, &grids, numbering, out);
         } else {
-            next_sides.resize(numbering.edges * (2 * side - 1), T::zero());
-            sides::refine(rules, &grids, &mut next_sides);
+            let next = Numbering { side: 2 * side, ..*numbering };
+            let mut next_points = Vec::new();
+            pages::resize(&mut next_points, next.count());
+            refine_once(rules, &grids, &next, &mut next_points);
+            points = next_points;
         }
-        interiors::refine(&frame, own_interiors, room);
-        (corners, sides) = (next_corners, next_sides);
-        side *= 2;
-        step += 1;
     }
-    own_corners.copy_from_slice(&corners);
+}
+
+fn refine_once<C: Connectivity, T: Components>(
+    rules: &Level,
+    grids: &Grids<'_, C, T>,
+    numbering: &Numbering,
+    out: &mut [T],
+) {
+    let (corners, rest) = out.split_at_mut(numbering.vertices);
+    let (interiors, sides) = rest.split_at_mut(numbering.faces * numbering.per_face());
+    corners::refine(rules, grids, corners);
+    sides::refine(rules, grids, sides);
+    interiors::refine(grids, interiors);
 }

@@ -1,5 +1,7 @@
 //! The points inside edges: a row that two grids share, refined between their rows next to it.
 
+use bytemuck::cast_slice_mut;
+
 use super::grids::Grids;
 use super::kernel::along;
 use crate::math::simd::{Four, Kernel, dispatch};
@@ -33,7 +35,7 @@ impl<C: Connectivity, T: Components> Kernel for Refine<'_, C, T> {
         let n = grids.frame.side;
         row.resize(n + 1, T::zero());
         row[0] = grids.frame.corner(grids.frame.base.origin(h));
-        row[1..n].copy_from_slice(grids.frame.side(h).0);
+        grids.frame.side(h).copy(false, &mut row[1..n]);
         row[n] = grids.frame.corner(grids.frame.base.target(h));
         let crease_share = match rule {
             EdgeRule::Smooth => 0.0,
@@ -44,14 +46,9 @@ impl<C: Connectivity, T: Components> Kernel for Refine<'_, C, T> {
             // Across the edge first: six eighths of the row, an eighth of each row beside it.
             let beside = (1.0 - crease_share) * (1.0 / 8.0);
             let own = 1.0 - 2.0 * beside;
-            for (m, point) in row.iter_mut().enumerate() {
-                let neighbours = [grids.beside_at(h, m), grids.beside_at(twin, n - m)];
-                let mut value = T::zero();
-                value.add_scaled(beside, &neighbours[0]);
-                value.add_scaled(beside, &neighbours[1]);
-                value.add_scaled(own, point);
-                *point = value;
-            }
+            cast_slice_mut::<T, f64>(row).iter_mut().for_each(|number| *number *= own);
+            grids.add_row_beside(h, false, beside, row);
+            grids.add_row_beside(twin, true, beside, row);
         }
         along(row, out);
     }

@@ -141,21 +141,18 @@ fn last_step<C: Connectivity, T: Components, E>(
     points: &[T],
     mut take: impl FnMut(&[T]) -> Result<(), E>,
 ) -> Result<(), E> {
-    let (own_corners, rest) = points.split_at(coarse.vertices);
-    let (inside, own_sides) = rest.split_at(coarse.faces * coarse.per_face());
-    let frame = Frame { base: quads, side: coarse.side, corners: own_corners, sides: own_sides };
-    let grids = Grids { frame: &frame, interiors: inside, room: coarse.per_face() };
-    corners::refine(rules, &grids).chunks(AT_ONCE).try_for_each(&mut take)?;
+    let [corners, interiors, sides] = coarse.parts(points);
+    let frame = Frame { base: quads, side: coarse.side, corners, sides };
+    let grids = Grids { frame, interiors };
+    let mut block = vec![T::zero(); numbering.vertices];
+    corners::refine(rules, &grids, &mut block);
+    block.chunks(AT_ONCE).try_for_each(&mut take)?;
 
-    let (from, to) = (coarse.per_face(), numbering.per_face());
-    let at_once = AT_ONCE.div_ceil(to);
-    let mut block = Vec::new();
-    for (number, grids) in inside.chunks(at_once * from).enumerate() {
-        block.resize(grids.len() / from * to, T::zero());
-        for (grid, out) in grids.chunks_exact(from).zip(block.chunks_exact_mut(to)) {
-            out[..from].copy_from_slice(grid);
-        }
-        interiors::refine_from(&frame, number * at_once, &mut block, to);
+    let room = numbering.per_face();
+    let at_once = AT_ONCE.div_ceil(room);
+    for first in (0..numbering.faces).step_by(at_once) {
+        block.resize(at_once.min(numbering.faces - first) * room, T::zero());
+        interiors::refine_from(&grids, first, &mut block);
         take(&block)?;
     }
     drop(block);
