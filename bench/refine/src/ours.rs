@@ -1,7 +1,7 @@
 //! ogee.
 
 use anyhow::Result;
-use ogee::{ControlMesh, FineMesh, Level, Refinement, Vec3};
+use ogee::{ControlMesh, DenseRefinement, FineMesh, Level, Vec3};
 use serde_json::Value;
 
 use crate::measure::{self, Shape};
@@ -35,20 +35,23 @@ pub(crate) fn animate(mesh: &ControlMesh, depth: u32, frames: usize) -> Result<V
     Ok(shape(&points, &state.quads()).animation(&set_up, seconds))
 }
 
-/// What is made once for all frames.
-struct Animation(Refinement);
+/// What is made once for all frames. The level stays until the program ends.
+struct Animation(DenseRefinement<'static>);
 
 impl Animation {
     fn new(mesh: &ControlMesh, depth: u32) -> Result<Animation> {
-        Ok(Animation(Refinement::uniform(&Level::new(mesh)?, depth)?))
+        let level: &'static Level = Box::leak(Box::new(Level::new(mesh)?));
+        Ok(Animation(level.dense(depth, MEMORY)?))
     }
 
     fn pose(&self, cage: &[Vec3], points: &mut Vec<Vec3>) {
-        *points = self.0.apply(cage);
+        self.0.points(cage, points);
     }
 
     fn quads(&self) -> Vec<[u32; 4]> {
-        self.0.finest().quads()
+        let mut quads = Vec::new();
+        self.0.quads(&mut quads);
+        quads
     }
 }
 

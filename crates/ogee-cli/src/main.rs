@@ -35,6 +35,7 @@ mod evaluation;
 mod gpu;
 mod inspection;
 mod lenses;
+mod memory;
 mod names;
 mod nodes;
 mod output;

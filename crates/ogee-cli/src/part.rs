@@ -16,11 +16,11 @@ use serde::Serialize;
 use crate::cage::Cage;
 use crate::error::{Exit, Failure, Finding};
 use crate::lenses::{LensReport, lens_counts};
+use crate::memory::MemoryArguments;
 use crate::names::{LENS_METHODS, METHODS, SCHEMAS, UNITS, UP_AXES};
 use crate::nodes::NodeReport;
 use crate::output::{Counter, Destination};
 use crate::report::{Table, count, figure};
-use crate::system;
 
 /// The options of a conversion.
 #[derive(Debug, Args)]
@@ -56,6 +56,17 @@ pub(crate) struct PartArguments {
     /// The axis of the cage that points up; with y the part is turned so that z does
     #[arg(long, value_name = "AXIS", value_parser = UP_AXES)]
     up_axis: Option<UpAxis>,
+    #[command(flatten)]
+    memory: MemoryArguments,
+}
+
+/// A part and what it cost.
+pub(crate) struct Conversion {
+    pub(crate) part: Part,
+    /// How long it took.
+    pub(crate) seconds: f64,
+    /// The most memory that it would take, as known beforehand.
+    pub(crate) memory_stated: u64,
 }
 
 /// A format of parts.
@@ -139,22 +150,27 @@ impl LevelReport {
 }
 
 impl PartArguments {
-    /// Converts the cage `mesh`, which came from `cage`; `curves` lie on it and stay on edges of faces. Returns the seconds
-    /// that took.
+    /// Converts the cage `mesh`, which came from `cage`; `curves` lie on it and stay on edges of faces.
     pub(crate) fn convert(
         &self,
         cage: &Cage,
         mesh: &ControlMesh,
         curves: &[NetworkCurve],
         format: PartFormat,
-    ) -> Result<(Part, f64), Failure> {
+    ) -> Result<Conversion, Failure> {
         let start = Instant::now();
+        let budget = self.memory.budget();
         let seams = curves.iter().flat_map(NetworkCurve::legs).collect();
-        let options = Options { seams, ..self.options(format) };
-        let part = to_part(mesh, &options).map_err(|error| refusal(cage, &error))?;
-        Ok((part, start.elapsed().as_secs_f64()))
+        let options = Options { seams, memory: Some(budget.allowed), ..self.options(format) };
+        let part = to_part(mesh, &options).map_err(|error| match &error {
+            ConvertError::TooDeep(error) => self.memory.refusal(cage, error),
+            _ => refusal(cage, &error),
+        })?;
+        let memory_stated = budget.stated(u128::from(part.report.memory));
+        Ok(Conversion { part, seconds: start.elapsed().as_secs_f64(), memory_stated })
     }
 
+    /// All but what depends on the cage.
     fn options(&self, format: PartFormat) -> Options {
         let pack = self.pack || (format == PartFormat::Step && !self.no_pack);
         Options {
@@ -165,7 +181,7 @@ impl PartArguments {
             seams: Vec::new(),
             lens: lens::Options { method: self.lens, ..lens::Options::default() },
             up: self.up(),
-            memory: system::available_memory(),
+            memory: None,
         }
     }
 

@@ -37,7 +37,7 @@ fn convert_reports_and_names() {
     let folder = Folder::with_cube();
     let fields = "method level cage_faces patches faces_written edges vertices solids shells closed unit volume area \
                   bbox max_normal_angle_deg max_gap max_deviation max_deviation_relative max_curvature_jump max_curvature_jump_absolute \
-                  smooth_edges sharp_edges levels caps cap_degree nodes lenses seconds file_bytes peak_bytes notes";
+                  smooth_edges sharp_edges levels caps cap_degree nodes lenses seconds file_bytes peak_bytes memory_stated notes";
     for (output, options) in [
         ("part.step", "--unit in --ap 242 --name Lid --up-axis y"),
         ("part.STP", "--no-pack"),
@@ -94,7 +94,7 @@ fn refine_writes_every_format() {
             let output = format!("out.{format}");
             let report =
                 folder.ogee(&format!("refine --json cube.obj {options} -o {output}")).expect(0).json();
-            assert_fields(&report, "level vertices faces seconds peak_bytes file_bytes notes");
+            assert_fields(&report, "level vertices faces seconds peak_bytes memory_stated file_bytes notes");
             assert_fields(&report["seconds"], "read refine write");
             let level: u32 = options[3..4].parse().unwrap();
             let faces = 6 * 4usize.pow(level);

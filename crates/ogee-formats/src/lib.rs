@@ -24,7 +24,7 @@
 //! | --- | --- | --- |
 //! | cages: OBJ with subdivision tags, OFF, PLY, JSON | [`read_cage`] | [`obj::write_cage`], [`json::write_cage`] |
 //! | curves on a cage: JSON, lines of OBJ | [`network::read`] | [`network::write_obj`], [`network::write_json`] |
-//! | refined meshes: OBJ, PLY, OFF, STL, GLB, JSON | | [`write_mesh`] |
+//! | refined meshes: OBJ, PLY, OFF, STL, GLB, JSON | | [`write_mesh`], [`write_mesh_blocks`] |
 //! | parts: STEP | checked with [`step::check`] | [`step::write`] |
 //! | parts: patches in JSON | [`patches::read`] | [`patches::write`] |
 //! | parts: BezierView | | [`bv::write`] |
@@ -34,6 +34,7 @@
 //!
 //! What each of them accepts and writes is described in `docs/formats.md` of the repository.
 
+mod blocks;
 mod builder;
 pub mod bv;
 mod cage;
@@ -58,6 +59,7 @@ mod stl;
 mod text;
 mod triangles;
 
+pub use blocks::{MeshBlocks, write_mesh_blocks};
 pub use cage::{CageFile, CageFormat, read_cage};
 pub use error::{Fault, ReadError, Warning};
 pub use file::FileBytes;

@@ -11,7 +11,7 @@ use ogee::{ControlMesh, FaceList, Vec3};
 use crate::{glb, json, obj, off, ply, stl};
 
 /// Bytes gathered before they are handed on.
-const BUFFER: usize = 1 << 16;
+pub(crate) const BUFFER: usize = 1 << 16;
 
 /// A mesh to be written, borrowed from wherever it lives.
 #[derive(Clone, Copy, Debug)]
@@ -90,7 +90,7 @@ impl<'a> MeshView<'a> {
 
     /// Refuses what no writer can write.
     fn check(&self) -> io::Result<()> {
-        let refuse = |message: &str| Err(io::Error::new(io::ErrorKind::InvalidInput, message.to_string()));
+        let refuse = |message: &str| Err(refused(message));
         if !self.points.iter().all(|p| p.is_finite()) {
             return refuse("the mesh has a vertex that is not finite");
         }
@@ -111,6 +111,11 @@ impl<'a> MeshView<'a> {
         }
         Ok(())
     }
+}
+
+/// What no writer can write.
+pub(crate) fn refused(message: &str) -> io::Error {
+    io::Error::new(io::ErrorKind::InvalidInput, message.to_owned())
 }
 
 /// A format of mesh files.

@@ -156,16 +156,23 @@ fn face_corners(mut tokens: Tokens<'_>, corners: &mut Vec<i64>) -> Result<(), Re
 
 /// Writes a mesh; normals and texture coordinates are left out.
 pub(crate) fn write_view(view: &MeshView<'_>, out: &mut impl Write) -> io::Result<()> {
-    writeln!(out, "OFF\n{} {} 0", view.points.len(), view.faces.len())?;
-    for p in view.points {
-        writeln!(out, "{} {} {}", Shortest(p.x), Shortest(p.y), Shortest(p.z))?;
+    write_header(view.points.len(), view.faces.len(), out)?;
+    for &p in view.points {
+        write_point(p, out)?;
     }
-    for face in view.faces.iter() {
-        write!(out, "{}", face.len())?;
-        for v in face {
-            write!(out, " {v}")?;
-        }
-        writeln!(out)?;
-    }
-    Ok(())
+    view.faces.iter().try_for_each(|face| write_face(face, out))
+}
+
+pub(crate) fn write_header(vertices: usize, faces: usize, out: &mut impl Write) -> io::Result<()> {
+    writeln!(out, "OFF\n{vertices} {faces} 0")
+}
+
+pub(crate) fn write_point(p: Vec3, out: &mut impl Write) -> io::Result<()> {
+    writeln!(out, "{} {} {}", Shortest(p.x), Shortest(p.y), Shortest(p.z))
+}
+
+pub(crate) fn write_face(face: &[u32], out: &mut impl Write) -> io::Result<()> {
+    write!(out, "{}", face.len())?;
+    face.iter().try_for_each(|v| write!(out, " {v}"))?;
+    writeln!(out)
 }

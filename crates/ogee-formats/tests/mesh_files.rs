@@ -2,8 +2,10 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot unwrap has failed")]
 
-use ogee::{FaceList, Vec3, shapes};
-use ogee_formats::{CageFormat, Faces, MeshFormat, MeshView, Placement, read_cage, write_mesh};
+use ogee::{FaceList, FineMesh, Level, Vec3, shapes};
+use ogee_formats::{
+    CageFormat, Faces, MeshBlocks, MeshFormat, MeshView, Placement, read_cage, write_mesh, write_mesh_blocks,
+};
 
 fn write(view: &MeshView<'_>, format: MeshFormat) -> Vec<u8> {
     let mut file = Vec::new();
@@ -206,6 +208,122 @@ fn what_does_not_fit_together_is_refused() {
     }
     let none = MeshView { faces: Faces::Quads(&[]), uv: None, ..square() };
     assert!(write_mesh(&none, MeshFormat::Glb, Placement::default(), Vec::new()).is_err());
+}
+
+/// A mesh in blocks of one, two, three and so on.
+struct Blocks<'a> {
+    points: &'a [Vec3],
+    quads: &'a [[u32; 4]],
+    promised: [usize; 2],
+}
+
+fn growing<T>(mut rest: &[T], take: &mut dyn FnMut(&[T]) -> std::io::Result<()>) -> std::io::Result<()> {
+    for size in 0.. {
+        let (block, others) = rest.split_at(size.min(rest.len()));
+        take(block)?;
+        rest = others;
+        if rest.is_empty() {
+            break;
+        }
+    }
+    Ok(())
+}
+
+impl MeshBlocks for Blocks<'_> {
+    fn vertex_count(&self) -> usize {
+        self.promised[0]
+    }
+    fn face_count(&self) -> usize {
+        self.promised[1]
+    }
+    fn points(&self, take: &mut dyn FnMut(&[Vec3]) -> std::io::Result<()>) -> std::io::Result<()> {
+        growing(self.points, take)
+    }
+    fn quads(&self, take: &mut dyn FnMut(&[[u32; 4]]) -> std::io::Result<()>) -> std::io::Result<()> {
+        growing(self.quads, take)
+    }
+}
+
+fn blocks(mesh: &FineMesh) -> Blocks<'_> {
+    let promised = [mesh.points.len(), mesh.faces.len()];
+    Blocks { points: &mesh.points, quads: &mesh.faces, promised }
+}
+
+fn fine_torus() -> FineMesh {
+    let torus = shapes::torus(7, 5);
+    Level::new(&torus).unwrap().fine_mesh(&torus.points, 2, u64::MAX).unwrap()
+}
+
+#[test]
+fn a_mesh_in_blocks_gives_the_same_bytes() {
+    let torus = fine_torus();
+    let none = FineMesh { points: Vec::new(), faces: Vec::new() };
+    for (mesh, name) in [(&torus, "a torus"), (&none, "")] {
+        let view = MeshView {
+            points: &mesh.points,
+            faces: Faces::Quads(&mesh.faces),
+            normals: None,
+            uv: None,
+            name,
+        };
+        for format in MeshFormat::ALL {
+            let mut streamed = Vec::new();
+            let result = write_mesh_blocks(&blocks(mesh), name, format, &mut streamed);
+            if !format.takes_blocks() {
+                assert_eq!(result.unwrap_err().kind(), std::io::ErrorKind::InvalidInput);
+                continue;
+            }
+            result.unwrap();
+            let mut whole = Vec::new();
+            write_mesh(&view, format, Placement::default(), &mut whole).unwrap();
+            assert!(streamed == whole, "{}", format.name());
+        }
+    }
+}
+
+#[test]
+fn blocks_that_are_not_what_was_promised_are_refused() {
+    let torus = fine_torus();
+    let [v, f] = [torus.points.len(), torus.faces.len()];
+    let mut folded = torus.clone();
+    folded.faces[9][2] = v as u32;
+    let mut endless = torus.clone();
+    endless.points[100].y = f64::NAN;
+    for format in [MeshFormat::Obj, MeshFormat::Ply, MeshFormat::Off] {
+        let refused = |blocks: Blocks<'_>, why: &str| {
+            let error = write_mesh_blocks(&blocks, "x", format, Vec::new()).unwrap_err();
+            assert!(error.to_string().contains(why), "{error}");
+        };
+        refused(Blocks { promised: [v + 1, f], ..blocks(&torus) }, "vertices were promised");
+        refused(Blocks { promised: [v, f - 1], ..blocks(&torus) }, "faces were promised");
+        refused(blocks(&folded), "missing vertex");
+        refused(blocks(&endless), "not finite");
+    }
+}
+
+#[test]
+fn a_disk_that_fills_while_blocks_come_is_an_error() {
+    struct Filling(usize);
+    impl std::io::Write for Filling {
+        fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+            self.0 = self.0.checked_sub(bytes.len()).ok_or(std::io::ErrorKind::StorageFull)?;
+            Ok(bytes.len())
+        }
+        fn flush(&mut self) -> std::io::Result<()> {
+            Ok(())
+        }
+    }
+    let torus = shapes::torus(40, 30);
+    let torus = Level::new(&torus).unwrap().fine_mesh(&torus.points, 3, u64::MAX).unwrap();
+    for format in [MeshFormat::Obj, MeshFormat::Ply, MeshFormat::Off] {
+        let mut file = Vec::new();
+        write_mesh_blocks(&blocks(&torus), "", format, &mut file).unwrap();
+        for room in [0, 1, file.len() / 3, file.len() - 1] {
+            let error = write_mesh_blocks(&blocks(&torus), "", format, Filling(room)).unwrap_err();
+            assert_eq!(error.kind(), std::io::ErrorKind::StorageFull);
+        }
+        write_mesh_blocks(&blocks(&torus), "", format, Filling(file.len())).unwrap();
+    }
 }
 
 #[test]

@@ -13,7 +13,7 @@ use crate::arguments::OutputArguments;
 use crate::cage::CageArguments;
 use crate::error::{Failure, Finding};
 use crate::names::{Format, formats};
-use crate::part::{PartArguments, PartFormat, PartReport};
+use crate::part::{Conversion, PartArguments, PartFormat, PartReport};
 use crate::report::{Console, Table, bytes};
 use crate::{system, timestamp};
 
@@ -51,6 +51,8 @@ struct Report<'a> {
     file_bytes: u64,
     /// The most memory held.
     peak_bytes: Option<u64>,
+    /// The most that it would be, as known from counts before patches were made.
+    memory_stated: u64,
     notes: &'a [Finding],
 }
 
@@ -71,10 +73,12 @@ impl Convert {
         let (name, cage_format, bytes) = self.cage.load()?;
         let cage = self.cage.parse(name, cage_format, &bytes)?;
         let curves = curves(cage_format, &bytes);
+        drop(bytes);
         destination.check()?;
 
         progress.step("converting");
-        let (part, convert) = self.part.convert(&cage, cage.mesh(), &curves, format)?;
+        let conversion = self.part.convert(&cage, cage.mesh(), &curves, format)?;
+        let Conversion { part, seconds: convert, memory_stated } = conversion;
 
         progress.step("writing");
         let start = Instant::now();
@@ -91,6 +95,7 @@ impl Convert {
             seconds,
             file_bytes,
             peak_bytes: system::peak_memory(),
+            memory_stated,
             notes: &notes,
         };
         let title = format!("{} -> {}", cage.name, destination.name());

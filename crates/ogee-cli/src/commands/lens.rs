@@ -185,7 +185,7 @@ impl Lens {
                 return Ok(Made::Cage(Box::new(treated)));
             }
         };
-        let (part, _) = self.part.convert(cage, cage.mesh(), &[], format)?;
+        let part = self.part.convert(cage, cage.mesh(), &[], format)?.part;
         Ok(Made::Part(Box::new(part), format))
     }
 }

@@ -23,7 +23,7 @@ use crate::cage::{Cage, CageArguments, read_bytes};
 use crate::error::{Failure, Finding, Where};
 use crate::names::{CROSSINGS, Format, PLACINGS, SCHEMES, Scheme, formats};
 use crate::output::{Counter, Destination};
-use crate::part::{PartArguments, PartFormat, PartReport};
+use crate::part::{Conversion, PartArguments, PartFormat, PartReport};
 use crate::report::{Console, Table, bytes, count, figure};
 use crate::timestamp;
 
@@ -220,7 +220,8 @@ impl Network {
         let (mut part, mut edge_error) = (None, None);
         if let NetworkOutput::Part(kind) = format {
             progress.step("converting");
-            let (made, seconds) = self.part.convert(&cage, &embedding.mesh, &paths, kind)?;
+            let Conversion { part: made, seconds, .. } =
+                self.part.convert(&cage, &embedding.mesh, &paths, kind)?;
             let targets: Vec<_> = embedding.segments.iter().map(|segment| segment.target.clone()).collect();
             edge_error = Some(largest_distance_to_edges(&made, &targets, self.part.up()));
             part = Some((made, seconds));

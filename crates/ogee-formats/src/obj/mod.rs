@@ -16,6 +16,6 @@ mod survey;
 mod tags;
 mod write;
 
-pub(crate) use mesh::write_view;
+pub(crate) use mesh::{write_corners, write_name, write_point, write_view};
 pub use read::read;
 pub use write::write_cage;

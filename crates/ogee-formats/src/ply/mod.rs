@@ -9,4 +9,4 @@ mod read;
 mod write;
 
 pub use read::read;
-pub(crate) use write::write_view;
+pub(crate) use write::{Layout, write_vector, write_view};

@@ -3,12 +3,12 @@
 use super::deviation::{self, Measured};
 use super::part::LevelFaces;
 use super::source::{Source, told, told_note};
-use super::{ConvertError, DEEPEST_LEVEL, Options, Packing, PlacedChart};
+use super::{ConvertError, DEEPEST_LEVEL, Options, Packing, PlacedChart, memory};
 use crate::lens::Origins;
-use crate::mesh::{FaceId, HalfedgeId, Note};
+use crate::mesh::{FaceId, HalfedgeId, Note, Place};
+use crate::nurbs::NurbsSurface;
 use crate::patch::Adaptive;
-use crate::pccm::{self, Chart, Group, Layer, Placed, Plan};
-use crate::refine::TooDeep;
+use crate::pccm::{self, Blocks, Chart, Group, Layer, Placed};
 use std::borrow::Cow;
 
 /// A cage in bicubic patches.
@@ -16,13 +16,17 @@ pub(super) struct Bicubic<'a> {
     source: &'a Source,
     /// The cage, and one refinement of its faces that are split.
     adaptive: Adaptive,
-    groups: Vec<Converted<'a>>,
+    groups: Vec<Converted>,
+    memory: u64,
 }
 
 /// A group of faces in patches, measured.
-struct Converted<'a> {
+struct Converted {
     group: Group,
-    patches: pccm::Converted<'a>,
+    /// In terms of the level that its faces are of.
+    charts: Vec<(Chart, NurbsSurface)>,
+    broken: Vec<HalfedgeId>,
+    notes: Vec<Note>,
     deviation: f64,
 }
 
@@ -37,11 +41,24 @@ impl<'a> Bicubic<'a> {
         let mut plan =
             pccm::plan(cage, layer, options.level).map_err(|error| told(error, &source.origins))?;
         let choices = pccm::Options { layer, ..pccm::Options::default() };
+        let mut adaptive = source.adaptive.clone();
+        let topology = cage.topology();
+        let split = plan.groups.iter().filter(|group| group.steps > 0).flat_map(|group| &group.faces);
+        let mut split: Vec<FaceId> = split.map(|quad| topology.face(HalfedgeId(quad.0))).collect();
+        split.sort_unstable();
+        split.dedup();
+        if !split.is_empty() {
+            adaptive.refine(&split);
+        }
+        let seams = source.seams(&adaptive, 0);
+        let mut memory = 0;
         let mut groups = Vec::with_capacity(plan.groups.len());
         for number in 0..plan.groups.len() {
             groups.push(loop {
-                check_memory(&plan, options)?;
-                let converted = Converted::new(source, &plan.groups[number], &choices)?;
+                memory = memory::stated(cage, &plan, options)?;
+                let group = &plan.groups[number];
+                let block = memory::block_size(group, options);
+                let converted = Converted::new(source, group, &choices, options, &seams, block)?;
                 let Converted { deviation: reached, .. } = converted;
                 let level = &mut plan.groups[number].level;
                 match options.max_deviation {
@@ -57,16 +74,7 @@ impl<'a> Bicubic<'a> {
                 }
             });
         }
-        let mut adaptive = source.adaptive.clone();
-        let topology = cage.topology();
-        let split = plan.groups.iter().filter(|group| group.steps > 0).flat_map(|group| &group.faces);
-        let mut split: Vec<FaceId> = split.map(|quad| topology.face(HalfedgeId(quad.0))).collect();
-        split.sort_unstable();
-        split.dedup();
-        if !split.is_empty() {
-            adaptive.refine(&split);
-        }
-        Ok(Bicubic { source, adaptive, groups })
+        Ok(Bicubic { source, adaptive, groups, memory })
     }
 
     pub(super) fn deviation(&self) -> f64 {
@@ -75,10 +83,14 @@ impl<'a> Bicubic<'a> {
 
     /// How many faces are refined how often.
     pub(super) fn faces_by_level(&self) -> Vec<LevelFaces> {
+        let cage = self.source.cage();
         let mut levels: Vec<LevelFaces> = Vec::new();
-        for Converted { group: Group { steps, level, .. }, patches, .. } in &self.groups {
-            let faces =
-                patches.part.base().topology().face_count() - patches.part.base().hidden_faces().len();
+        for Converted { group: Group { steps, level, faces }, .. } in &self.groups {
+            let is_visible = |&&face: &&FaceId| match steps {
+                0 => cage.is_visible(face),
+                _ => cage.is_visible(cage.topology().face(HalfedgeId(face.0))),
+            };
+            let faces = faces.iter().filter(is_visible).count();
             match levels.iter_mut().find(|other| (other.steps, other.level) == (*steps, *level)) {
                 Some(other) => other.faces += faces,
                 None => levels.push(LevelFaces { steps: *steps, level: *level, faces }),
@@ -93,14 +105,12 @@ impl<'a> Bicubic<'a> {
         &self.adaptive
     }
 
-    pub(super) fn charts(&self, packing: Packing) -> Vec<PlacedChart> {
-        let seams = self.source.seams(&self.adaptive, 0);
-        let mut charts = Vec::new();
-        for Converted { group, patches, .. } in &self.groups {
-            let of_group = match packing {
-                Packing::Packed => patches.packed(&seams),
-                Packing::Unpacked => patches.unpacked(),
-            };
+    /// All charts; afterwards there are none.
+    pub(super) fn take_charts(&mut self) -> Vec<PlacedChart> {
+        let all = self.groups.iter_mut().map(|converted| std::mem::take(&mut converted.charts));
+        let all: Vec<Vec<(Chart, NurbsSurface)>> = all.collect();
+        let mut charts = Vec::with_capacity(all.iter().map(Vec::len).sum());
+        for (Converted { group, .. }, of_group) in self.groups.iter().zip(all) {
             charts.extend(of_group.into_iter().map(|(Chart { quads }, surface)| {
                 let own = |placed: &Placed| Placed { quad: self.quad(group.steps, placed.quad), ..*placed };
                 PlacedChart { level: group.steps as usize, chart: Chart { quads: quads.map(own) }, surface }
@@ -119,13 +129,13 @@ impl<'a> Bicubic<'a> {
 
     /// Halfedges of a level whose edge is not smooth next to their origin.
     pub(super) fn broken(&self) -> Vec<(usize, HalfedgeId)> {
-        let of_group = |converted: &'_ Converted<'a>| {
+        let of_group = |converted: &'_ Converted| {
             let steps = converted.group.steps;
-            let own = move |h: HalfedgeId| match steps {
-                0 => h,
+            let own = move |h: &HalfedgeId| match steps {
+                0 => *h,
                 _ => HalfedgeId(4 * self.quad(steps, h.0 / 4) + h.0 % 4),
             };
-            converted.patches.broken().into_iter().map(move |h| (steps as usize, own(h)))
+            converted.broken.iter().map(|h| (steps as usize, own(h))).collect::<Vec<_>>()
         };
         self.groups.iter().flat_map(of_group).collect()
     }
@@ -133,54 +143,169 @@ impl<'a> Bicubic<'a> {
     /// In terms of the cage that was given.
     pub(super) fn notes(&self) -> Vec<Note> {
         let mut notes = Vec::new();
-        for Converted { group, patches, .. } in &self.groups {
-            let origins: Cow<'_, Origins> = match group.steps {
+        for converted in self.groups.iter().filter(|converted| !converted.notes.is_empty()) {
+            let origins: Cow<'_, Origins> = match converted.group.steps {
                 0 => Cow::Borrowed(&self.source.origins),
                 _ => Cow::Owned(self.source.origins.refined(self.source.cage().topology())),
             };
-            notes.extend(patches.notes().iter().map(|note| told_note(note, &origins)));
+            notes.extend(converted.notes.iter().map(|note| told_note(note, &origins)));
         }
         notes
     }
+
+    pub(super) fn memory(&self) -> u64 {
+        self.memory
+    }
 }
 
-impl<'a> Converted<'a> {
+impl Converted {
     fn new(
-        source: &'a Source,
+        source: &Source,
         group: &Group,
         choices: &pccm::Options,
-    ) -> Result<Converted<'a>, ConvertError> {
-        let part = pccm::Part::new(source.cage(), group.steps, &group.faces);
-        part.base().check_depth(group.level, u64::MAX)?;
+        options: &Options,
+        seams: &[HalfedgeId],
+        block: usize,
+    ) -> Result<Converted, ConvertError> {
+        source.cage().check_depth(group.steps + group.level, u64::MAX)?;
         let choices = pccm::Options { level: group.level, ..*choices };
-        let patches = pccm::Converted::new(part, source.cage_points(), &choices);
-        let base = patches.part.base();
-        let cells = deviation::changed_cells(base, group.level, &patches.patches.classes);
-        let surfaces = if cells.is_empty() { Vec::new() } else { patches.surfaces() };
-        let measured = Measured { base, points: &patches.points, level: group.level, surfaces: &surfaces };
-        let deviation = deviation::largest_deviation(&measured, &cells, 0);
-        Ok(Converted { group: group.clone(), patches, deviation })
+        let blocks = Blocks::new(source.cage(), group, block);
+        let mut converted = Converted {
+            group: group.clone(),
+            charts: Vec::with_capacity(group.faces.len()),
+            broken: Vec::new(),
+            notes: Vec::new(),
+            deviation: 0.0,
+        };
+        for block in 0..blocks.len() {
+            let patches = pccm::Converted::new(blocks.part(block), source.cage_points(), &choices);
+            converted.deviation = converted.deviation.max(deviation_of(&patches));
+            converted.charts.extend(match options.packing {
+                Packing::Packed => patches.packed(seams),
+                Packing::Unpacked => patches.unpacked(),
+            });
+            converted.broken.extend(patches.broken());
+            converted.notes.extend(patches.notes());
+        }
+        if blocks.len() > 1 {
+            converted.in_order();
+        }
+        Ok(converted)
+    }
+
+    /// As if there had been one block only: in the order of faces and vertices, and what two blocks have to say once.
+    fn in_order(&mut self) {
+        self.charts.sort_unstable_by_key(|(chart, _)| chart.quads[(0, 0)].quad);
+        self.broken.sort_unstable();
+        self.broken.dedup();
+        let vertex = |note: &Note| match note.place {
+            Some(Place::Vertex(vertex)) => Some(vertex),
+            _ => None,
+        };
+        self.notes.sort_by_key(vertex);
+        let mut once: Vec<Note> = Vec::with_capacity(self.notes.len());
+        for note in self.notes.drain(..) {
+            let mut of_vertex = once.iter().rev().take_while(|other| other.place == note.place);
+            if of_vertex.all(|other| *other != note) {
+                once.push(note);
+            }
+        }
+        self.notes = once;
     }
 }
 
-/// Measured on studded tori of 10 000 and 100 000 quads at levels 2 to 5 (82 to 148), rounded up.
-const BYTES_PER_COEFFICIENT: u128 = 160;
+/// The largest distance of the limit surface from the visible patches.
+fn deviation_of(converted: &pccm::Converted<'_>) -> f64 {
+    let (base, level) = (converted.part.base(), converted.patches.level);
+    let cells = deviation::changed_cells(base, level, &converted.patches.classes);
+    let surfaces = if cells.is_empty() { Vec::new() } else { converted.surfaces() };
+    let measured = Measured { base, points: &converted.points, level, surfaces: &surfaces };
+    deviation::largest_deviation(&measured, &cells, 0)
+}
 
-/// Asks whether the coefficients of all patches fit: as inserted, as smoothed, as surfaces; nets of all levels; the refined mesh.
-fn check_memory(plan: &Plan, options: &Options) -> Result<(), TooDeep> {
-    let greatest = plan.groups.iter().map(|group| group.level).max().unwrap_or(0);
-    let bytes = |most: u32| -> u128 {
-        let of_group = |group: &Group| {
-            let side = (1u128 << group.level.min(most)) + 7;
-            group.faces.len() as u128 * side * side * BYTES_PER_COEFFICIENT
-        };
-        plan.groups.iter().map(of_group).sum()
-    };
-    let memory = u128::from(options.memory.unwrap_or(u64::MAX));
-    if bytes(greatest) <= memory {
-        return Ok(());
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{Boundary, ControlMesh, Corner, Crease, Creasing, FaceList, Sharpness, shapes};
+
+    fn creased(mut mesh: ControlMesh, edges: &[[u32; 2]], sharpness: Sharpness) -> ControlMesh {
+        mesh.creases.extend(edges.iter().map(|&vertices| Crease { vertices, sharpness }));
+        mesh
     }
-    let deepest = (0..greatest).rev().find(|&shallower| bytes(shallower) <= memory).unwrap_or(0);
-    let faces = plan.groups.iter().map(|group| (group.faces.len() as u128) << (2 * group.level)).sum();
-    Err(TooDeep { depth: greatest, faces, deepest })
+
+    /// Edges along faces that follow one another in the list.
+    fn edges(mesh: &ControlMesh, step: usize) -> Vec<[u32; 2]> {
+        mesh.faces.iter().step_by(step).map(|face| [face[0], face[1]]).collect()
+    }
+
+    /// Two quads side by side become a triangle and a pentagon, here and there.
+    fn with_polygons(mesh: ControlMesh, around: usize) -> ControlMesh {
+        let mut faces = FaceList::new();
+        for f in 0..mesh.faces.len() {
+            let of = |f: usize| mesh.faces.face(f);
+            match f {
+                _ if f % 97 == 40 => {
+                    let (a, b) = (of(f), of(f + around));
+                    faces.push(&[a[0], a[1], b[2], a[2], a[3]]);
+                }
+                _ if f >= around && (f - around) % 97 == 40 => faces.push(&of(f)[..3]),
+                _ => faces.push(of(f)),
+            }
+        }
+        ControlMesh { faces, ..mesh }
+    }
+
+    fn cages() -> Vec<(&'static str, ControlMesh)> {
+        let torus = || shapes::studded_torus(24, 20, 5);
+        let along = edges(&torus(), 7);
+        let mut holes = shapes::grid(14, 14);
+        holes.holes = vec![30, 31, 77];
+        holes.corners.push(Corner { vertex: 100, sharpness: Sharpness::Infinite });
+        holes.corners.push(Corner { vertex: 120, sharpness: Sharpness::Finite(1.5) });
+        let mut chaikin = creased(torus(), &along, Sharpness::Finite(1.3));
+        chaikin.scheme.creasing = Creasing::Chaikin;
+        let mut open = shapes::disk(5, 6);
+        open.scheme.boundary = Boundary::EdgeOnly;
+        vec![
+            ("studs", torus()),
+            ("studs that touch", shapes::studded_torus(12, 12, 2)),
+            ("body", shapes::body()),
+            ("sharp", creased(torus(), &along, Sharpness::Infinite)),
+            ("semi-sharp", creased(torus(), &along, Sharpness::Finite(2.4))),
+            ("chaikin", chaikin),
+            ("holes", holes),
+            ("disk", open),
+            ("polygons", with_polygons(shapes::torus(24, 20), 20)),
+        ]
+    }
+
+    #[test]
+    fn blocks_change_nothing() {
+        for (name, mesh) in cages() {
+            for layer in [Layer::First, Layer::Second] {
+                let options = Options { packing: Packing::Unpacked, ..Options::default() };
+                let source = Source::new(&mesh, &options).unwrap_or_else(|error| panic!("{name}: {error}"));
+                let choices = pccm::Options { layer, ..pccm::Options::default() };
+                let plan =
+                    pccm::plan(source.cage(), layer, None).unwrap_or_else(|error| panic!("{name}: {error}"));
+                for group in &plan.groups {
+                    let convert = |block| {
+                        let seams = source.seams(&source.adaptive, 0);
+                        let mut made = Converted::new(&source, group, &choices, &options, &seams, block)
+                            .unwrap_or_else(|error| panic!("{name}: {error}"));
+                        made.in_order();
+                        made
+                    };
+                    let whole = convert(usize::MAX);
+                    for block in [17, 150] {
+                        let made = convert(block);
+                        assert_eq!(made.charts, whole.charts, "{name} in blocks of {block}");
+                        assert_eq!(made.broken, whole.broken, "{name} in blocks of {block}");
+                        assert_eq!(made.notes, whole.notes, "{name} in blocks of {block}");
+                        assert_eq!(made.deviation.to_bits(), whole.deviation.to_bits(), "{name}, {block}");
+                    }
+                }
+            }
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! Bodies: closed shells become solids, closed shells inside them voids, open ones sheets.
 
-use super::measure::volume_and_area;
+use super::measure::{Moved, volume_and_area};
 use super::part::Body;
 use crate::math::{Grid, Vec3, par};
 use crate::mesh::{Note, Place};
@@ -42,9 +42,9 @@ pub(super) fn bodies(shells: Vec<Shell>, notes: &mut Vec<Note>) -> Vec<Body> {
 }
 
 /// A closed shell with positive volume.
-fn outward(shell: Shell, depth: usize, notes: &mut Vec<Note>) -> Shell {
+fn outward(mut shell: Shell, depth: usize, notes: &mut Vec<Note>) -> Shell {
     let face = shell.faces[0].address().face.0;
-    let inside_out = volume_and_area(&shell).0 < 0.0;
+    let inside_out = volume_and_area(Moved { shell: &shell, by: Vec3::ZERO }).0 < 0.0;
     let mut note = |code, message| notes.push(Note { code, message, place: Some(Place::Face(face)) });
     match (inside_out, depth % 2) {
         (true, 0) => {
@@ -53,7 +53,10 @@ fn outward(shell: Shell, depth: usize, notes: &mut Vec<Note>) -> Shell {
         (_, 1) => note("void", format!("the shell of face {face} lies inside another: taken as a hollow")),
         _ => {}
     }
-    if inside_out { shell.reversed() } else { shell }
+    if inside_out {
+        shell.reverse();
+    }
+    shell
 }
 
 /// For each closed shell the closed shells around it; `None` for open ones.

@@ -29,6 +29,7 @@ pub(super) struct Curvature<'a> {
     nodes: Vec<Node>,
     broken: Vec<(usize, HalfedgeId)>,
     notes: Vec<Note>,
+    memory: u64,
 }
 
 impl<'a> Curvature<'a> {
@@ -72,7 +73,7 @@ impl<'a> Curvature<'a> {
     ) -> Result<Curvature<'a>, ConvertError> {
         let tiling =
             Tiling::new(&source.adaptive, level_of).map_err(|face| ConvertError::Irregular { face })?;
-        check_memory(&tiling, memory)?;
+        let memory = check_memory(&tiling, memory)?;
         let mut fans = par::map(tiling.caps.len(), |cap| capped(&tiling.adaptive, &tiling.caps[cap]));
         let mut broken = Vec::new();
         let mut notes = Vec::new();
@@ -103,7 +104,7 @@ impl<'a> Curvature<'a> {
             let (level, regularity) = (fan.level as u32, regularity.map(|found| found.least));
             nodes.push(Node { place, kind, level, deviation, regularity });
         }
-        Ok(Curvature { source, nodes, fans, broken, notes, tiling })
+        Ok(Curvature { source, nodes, fans, broken, notes, tiling, memory })
     }
 
     /// How many faces are of which level.
@@ -123,6 +124,10 @@ impl<'a> Curvature<'a> {
 
     pub(super) fn adaptive(&self) -> &Adaptive {
         &self.tiling.adaptive
+    }
+
+    pub(super) fn memory(&self) -> u64 {
+        self.memory
     }
 
     pub(super) fn nodes(&self) -> &[Node] {
@@ -184,7 +189,7 @@ const BYTES_PER_SECTOR: u64 = 50_000;
 const BYTES_PER_REGULAR: u64 = 4_000;
 
 /// Asks whether all that is to be made of a tiling fits.
-fn check_memory(tiling: &Tiling, allowed: Option<u64>) -> Result<(), ConvertError> {
+fn check_memory(tiling: &Tiling, allowed: Option<u64>) -> Result<u64, ConvertError> {
     let capped = tiling.caps.iter().map(|cap| cap.site.halfedges.len());
     let smoothed = tiling.uncapped.iter().map(|sector| sector.halfedges.len());
     let sectors = capped.chain(smoothed).sum::<usize>() as u64;
@@ -194,7 +199,7 @@ fn check_memory(tiling: &Tiling, allowed: Option<u64>) -> Result<(), ConvertErro
         Some(allowed) if bytes > allowed => {
             Err(ConvertError::Memory { patches: sectors + regular, bytes, allowed })
         }
-        _ => Ok(()),
+        _ => Ok(bytes),
     }
 }
 

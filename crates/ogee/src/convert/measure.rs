@@ -1,7 +1,7 @@
 //! Figures of shells: continuity over edges, volume, area, extent.
 
 use crate::math::{Grid, Vec3, par};
-use crate::nurbs::{EdgeUse, KnotVector, NurbsSurface, Shell, ShellFace, Side, gauss};
+use crate::nurbs::{EdgeUse, KnotVector, NurbsSurface, Shell, Side, gauss};
 
 /// Steps between two knots of either side, along an edge.
 const STEPS_PER_SPAN: usize = 8;
@@ -33,35 +33,75 @@ impl Continuity {
     }
 }
 
-/// Gaps, normal angles and curvature jumps over all shared edges.
-pub(super) fn continuity(shell: &Shell) -> Continuity {
-    let mut uses: Vec<Vec<(usize, EdgeUse)>> = vec![Vec::new(); shell.edges.len()];
-    for (face, boundary) in shell.faces.iter().map(|face| &face.boundary).enumerate() {
-        for used in boundary {
-            uses[used.edge as usize].push((face, *used));
-        }
-    }
-    let edges = par::map(uses.len(), |edge| match uses[edge][..] {
-        [(a, first), (b, second)] => {
-            let smooth = shell.edges[edge].smooth;
-            across(&shell.faces[a], first, &shell.faces[b], second, smooth)
-        }
-        _ => Continuity::default(),
-    });
-    edges.into_iter().fold(Continuity::default(), Continuity::join)
+/// A shell that is measured as if it stood somewhere else, without a copy of it.
+#[derive(Clone, Copy)]
+pub(super) struct Moved<'a> {
+    pub(super) shell: &'a Shell,
+    pub(super) by: Vec3,
 }
 
-fn across(a: &ShellFace, first: EdgeUse, b: &ShellFace, second: EdgeUse, smooth: bool) -> Continuity {
+impl Moved<'_> {
+    fn surface(self, face: usize) -> NurbsSurface {
+        let mut surface = self.shell.faces[face].surface.clone();
+        surface.net.cells_mut().iter_mut().for_each(|point| *point += self.by);
+        surface
+    }
+
+    /// What is found on all faces or edges, a good number of them at a time.
+    fn over<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync + Send, mut take: impl FnMut(T)) {
+        const AT_ONCE: usize = 1 << 16;
+        for start in (0..count).step_by(AT_ONCE) {
+            par::map(AT_ONCE.min(count - start), |i| of(start + i)).into_iter().for_each(&mut take);
+        }
+    }
+}
+
+/// A use of an edge: a face, and a place in its loop.
+type Use = (u32, u32);
+
+/// The two uses of each edge that has two.
+fn uses(shell: &Shell) -> Vec<Option<[Use; 2]>> {
+    const NONE: Use = (u32::MAX, 0);
+    let mut uses = vec![([NONE; 2], 0u32); shell.edges.len()];
+    for (number, face) in (0..).zip(&shell.faces) {
+        for (place, used) in (0..).zip(&face.boundary) {
+            let (of_edge, count) = &mut uses[used.edge as usize];
+            if let Some(free) = of_edge.get_mut(*count as usize) {
+                *free = (number, place);
+            }
+            *count += 1;
+        }
+    }
+    uses.into_iter().map(|(of_edge, count)| (count == 2).then_some(of_edge)).collect()
+}
+
+/// Gaps, normal angles and curvature jumps over all shared edges.
+pub(super) fn continuity(moved: Moved<'_>) -> Continuity {
+    let shell = moved.shell;
+    let uses = uses(shell);
+    let of_edge = |edge: usize| {
+        let Some(uses) = uses[edge] else { return Continuity::default() };
+        let [(a, first), (b, second)] = uses.map(|(face, place)| {
+            (moved.surface(face as usize), shell.faces[face as usize].boundary[place as usize])
+        });
+        across(&a, first, &b, second, shell.edges[edge].smooth)
+    };
+    let mut found = Continuity::default();
+    Moved::over(uses.len(), of_edge, |edge| found = found.join(edge));
+    found
+}
+
+fn across(a: &NurbsSurface, first: EdgeUse, b: &NurbsSurface, second: EdgeUse, smooth: bool) -> Continuity {
     let mut found = Continuity {
         smooth_edges: usize::from(smooth),
         sharp_edges: usize::from(!smooth),
         ..Continuity::default()
     };
-    let at = |face: &ShellFace, used: EdgeUse, t: f64| {
+    let at = |surface: &NurbsSurface, used: EdgeUse, t: f64| {
         let t = if used.forward == first.forward { t } else { 1.0 - t };
         let [from, to] = used.range;
-        let (u, v) = face.surface.on_side(used.side, from + t * (to - from));
-        face.surface.jet(u, v)
+        let (u, v) = surface.on_side(used.side, from + t * (to - from));
+        surface.jet(u, v)
     };
     let stations = stations(a, first, b, second);
     for (k, &t) in stations.iter().enumerate() {
@@ -95,13 +135,10 @@ fn across(a: &ShellFace, first: EdgeUse, b: &ShellFace, second: EdgeUse, smooth:
 }
 
 /// Where an edge is sampled, in `[0, 1]` along its first use: on all knots of both sides, and between them.
-fn stations(a: &ShellFace, first: EdgeUse, b: &ShellFace, second: EdgeUse) -> Vec<f64> {
+fn stations(a: &NurbsSurface, first: EdgeUse, b: &NurbsSurface, second: EdgeUse) -> Vec<f64> {
     let mut breaks = vec![0.0, 1.0];
-    for (face, used) in [(a, first), (b, second)] {
-        let knots = match used.side {
-            Side::V0 | Side::V1 => face.surface.u.knots(),
-            Side::U0 | Side::U1 => face.surface.v.knots(),
-        };
+    for (surface, used) in [(a, first), (b, second)] {
+        let knots = surface.along(used.side).knots();
         let [from, to] = used.range;
         let inside = knots.iter().map(|knot| (knot - from) / (to - from)).filter(|t| (0.0..=1.0).contains(t));
         breaks.extend(inside.map(|t| if used.forward == first.forward { t } else { 1.0 - t }));
@@ -119,9 +156,9 @@ fn stations(a: &ShellFace, first: EdgeUse, b: &ShellFace, second: EdgeUse) -> Ve
 }
 
 /// Enclosed volume (meaningful for a closed shell) and area.
-pub(super) fn volume_and_area(shell: &Shell) -> (f64, f64) {
-    let faces = par::map(shell.faces.len(), |face| {
-        let surface = &shell.faces[face].surface;
+pub(super) fn volume_and_area(moved: Moved<'_>) -> (f64, f64) {
+    let of_face = |face: usize| {
+        let surface = moved.surface(face);
         // S . (Su x Sv) has degree 3 p - 1 along u: that many points are exact for the volume.
         let points = (3 * surface.u.degree().max(surface.v.degree())).div_ceil(2) + 1;
         let nodes = gauss(points);
@@ -147,19 +184,24 @@ pub(super) fn volume_and_area(shell: &Shell) -> (f64, f64) {
             }
         }
         (volume, area)
-    });
-    faces.into_iter().fold((0.0, 0.0), |sum, face| (sum.0 + face.0, sum.1 + face.1))
+    };
+    let mut sum = (0.0, 0.0);
+    Moved::over(moved.shell.faces.len(), of_face, |face| sum = (sum.0 + face.0, sum.1 + face.1));
+    sum
 }
 
 /// The bounding box of the surfaces themselves: extremes over samples, each climbed to its top.
-pub(super) fn bounding_box(shell: &Shell) -> Option<[Vec3; 2]> {
-    let boxes = par::map(shell.faces.len(), |face| face_box(&shell.faces[face]));
-    boxes.into_iter().reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
+pub(super) fn bounding_box(moved: Moved<'_>) -> Option<[Vec3; 2]> {
+    let mut found: Option<[Vec3; 2]> = None;
+    let of_face = |face: usize| surface_box(&moved.surface(face));
+    Moved::over(moved.shell.faces.len(), of_face, |[low, high]| {
+        found = Some(found.map_or([low, high], |[a, b]| [a.min(low), b.max(high)]));
+    });
+    found
 }
 
-fn face_box(face: &ShellFace) -> [Vec3; 2] {
+fn surface_box(surface: &NurbsSurface) -> [Vec3; 2] {
     const PER_SPAN: usize = 3;
-    let surface = &face.surface;
     let stations = |knots: &KnotVector| {
         let mut out = vec![knots.domain()[0]];
         for span in knots.spans() {

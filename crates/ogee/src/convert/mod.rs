@@ -9,6 +9,7 @@ mod curvature;
 mod curves;
 mod deviation;
 mod measure;
+mod memory;
 mod outline;
 mod part;
 mod quintic;
@@ -28,7 +29,7 @@ use crate::pccm::{Chart, Layer, PccmError};
 use crate::refine::TooDeep;
 use bicubic::Bicubic;
 use curvature::Curvature;
-use measure::Continuity;
+use measure::{Continuity, Moved};
 use outline::{Face, Seams};
 use quintic::Quintic;
 use source::Source;
@@ -133,9 +134,9 @@ pub enum ConvertError {
     /// It does not fit.
     #[error(transparent)]
     TooDeep(#[from] TooDeep),
-    /// Curvature-continuous patches would not fit.
+    /// Patches would not fit, on no level that there could be.
     #[error(
-        "{patches} patches take some {bytes} bytes, more than the {allowed} that may be used; ask for a smaller level or allow a larger deviation"
+        "{patches} patches take some {bytes} bytes, more than the {allowed} that may be used; ask for a smaller level or allow a larger deviation, or more memory"
     )]
     Memory {
         /// How many there would be.
@@ -224,7 +225,7 @@ pub fn to_part(mesh: &ControlMesh, options: &Options) -> Result<Part, ConvertErr
         Method::Bi5 => Construction::Quintic(Quintic::new(&source, options)?),
         Method::G2 => Construction::Curvature(Curvature::new(&source, options)?),
     };
-    Ok(finish(&source, &construction, options, mesh))
+    Ok(finish(&source, construction, options, mesh))
 }
 
 /// A cage in patches.
@@ -274,11 +275,21 @@ impl Construction<'_> {
         }
     }
 
-    fn charts(&self, packing: Packing) -> Vec<PlacedChart> {
+    /// All charts; to be asked for once.
+    fn take_charts(&mut self, packing: Packing) -> Vec<PlacedChart> {
         match self {
-            Construction::Bicubic(bicubic) => bicubic.charts(packing),
+            Construction::Bicubic(bicubic) => bicubic.take_charts(),
             Construction::Quintic(quintic) => quintic.charts(),
             Construction::Curvature(curvature) => curvature.charts(packing),
+        }
+    }
+
+    /// The most bytes that were to be needed.
+    fn memory(&self) -> u64 {
+        match self {
+            Construction::Bicubic(bicubic) => bicubic.memory(),
+            Construction::Quintic(quintic) => quintic.memory(),
+            Construction::Curvature(curvature) => curvature.memory(),
         }
     }
 
@@ -312,12 +323,17 @@ impl Construction<'_> {
 const NO_VOLUME: f64 = 1e-12;
 
 /// Sews, sorts, measures, and moves the part back to where the cage was.
-fn finish(source: &Source, construction: &Construction<'_>, options: &Options, mesh: &ControlMesh) -> Part {
+fn finish(
+    source: &Source,
+    mut construction: Construction<'_>,
+    options: &Options,
+    mesh: &ControlMesh,
+) -> Part {
     let (deviation, faces_by_level) = (construction.deviation(), construction.faces_by_level());
     let mut all_notes = notes(mesh);
     all_notes.extend(construction.notes());
     all_notes.extend(source.refined_for_lenses());
-    let charts = construction.charts(options.packing);
+    let charts = construction.take_charts(options.packing);
     let mut sewing = Seams::new(construction.adaptive());
     for PlacedChart { level, chart, .. } in &charts {
         sewing.divide(*level, chart.quads.cells().iter().map(|placed| FaceId(placed.quad)));
@@ -351,6 +367,7 @@ fn finish(source: &Source, construction: &Construction<'_>, options: &Options, m
         nodes: construction.nodes().to_vec(),
         lenses: source.lenses.clone(),
         lens_steps: source.steps,
+        memory: construction.memory(),
         max_deviation: deviation,
         max_deviation_relative: if source.size > 0.0 { deviation / source.size } else { 0.0 },
         closed: true,
@@ -359,13 +376,12 @@ fn finish(source: &Source, construction: &Construction<'_>, options: &Options, m
     for body in &bodies {
         for (number, shell) in body.shells().enumerate() {
             // What is written is measured, its rounding far from the origin included, but measured near the origin.
-            let mut near = shell.clone();
-            near.translate(-source.centre);
-            continuity = continuity.join(measure::continuity(&near));
-            let (own_volume, own_area) = measure::volume_and_area(&near);
+            let near = Moved { shell, by: -source.centre };
+            continuity = continuity.join(measure::continuity(near));
+            let (own_volume, own_area) = measure::volume_and_area(near);
             volume += if number == 0 { own_volume } else { -own_volume };
             area += own_area;
-            if let Some([low, high]) = measure::bounding_box(&near) {
+            if let Some([low, high]) = measure::bounding_box(near) {
                 extent = Some(extent.map_or([low, high], |[a, b]| [a.min(low), b.max(high)]));
             }
             report.faces_written += shell.faces.len();

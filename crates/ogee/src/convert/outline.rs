@@ -18,9 +18,28 @@ pub(super) const SIDES: [Side; 4] = [Side::V0, Side::U1, Side::V1, Side::U0];
 /// A face that is to be sewn.
 pub(super) struct Face {
     pub(super) surface: NurbsSurface,
-    /// What lies along each side, in the direction of the loop; nothing along one that is a single point.
-    pub(super) sides: [Vec<Step>; 4],
+    /// What lies along its sides, one after the other, in the direction of the loop.
+    steps: Vec<Step>,
+    /// Where each side ends among these.
+    ends: [u32; 4],
     pub(super) pieces: Grid<FaceAddress>,
+}
+
+impl Face {
+    fn new(surface: NurbsSurface, sides: [Vec<Step>; 4], pieces: Grid<FaceAddress>) -> Face {
+        let mut steps = Vec::with_capacity(sides.iter().map(Vec::len).sum());
+        let ends = sides.map(|side| {
+            steps.extend(side);
+            steps.len() as u32
+        });
+        Face { surface, steps, ends, pieces }
+    }
+
+    /// What lies along a side; nothing along one that is a single point.
+    pub(super) fn side(&self, number: usize) -> &[Step] {
+        let start = if number == 0 { 0 } else { self.ends[number - 1] };
+        &self.steps[start as usize..self.ends[number] as usize]
+    }
 }
 
 /// A course along a side.
@@ -170,7 +189,7 @@ impl<'a> Seams<'a> {
         };
         let addresses = &self.adaptive.levels()[number].addresses;
         let pieces = chart.quads.map(|placed| addresses[placed.quad as usize]);
-        Face { surface, sides: std::array::from_fn(side), pieces }
+        Face::new(surface, std::array::from_fn(side), pieces)
     }
 
     /// The faces of a cap of the cage.
@@ -196,7 +215,7 @@ impl<'a> Seams<'a> {
                     self.courses(0, h, edge.range, side);
                 }
             }
-            faces.push(Face { surface: face.surface.clone(), sides, pieces: face.pieces.clone() });
+            faces.push(Face::new(face.surface.clone(), sides, face.pieces.clone()));
         }
         faces
     }

@@ -164,6 +164,8 @@ pub struct Report {
     pub lenses: Vec<TreatedLens>,
     /// How often the cage was refined to make room around them.
     pub lens_steps: u32,
+    /// The most bytes that the conversion holds, the cage that was given left out; known from counts before patches are made.
+    pub memory: u64,
     /// What the user should know.
     pub notes: Vec<Note>,
 }

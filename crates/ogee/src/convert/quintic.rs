@@ -17,6 +17,7 @@ pub(super) struct Quintic {
     /// One per quad of the last level.
     surfaces: Vec<NurbsSurface>,
     deviation: f64,
+    memory: u64,
 }
 
 impl Quintic {
@@ -41,7 +42,7 @@ impl Quintic {
     /// A quintic has no inner knots: a level means more patches.
     fn at_level(source: &Source, options: &Options, level: u32) -> Result<Quintic, ConvertError> {
         let steps = u32::from(!source.cage().topology().is_quads()) + level;
-        check_memory(source, options, level)?;
+        let memory = check_memory(source, options, level)?;
         let mut adaptive = source.adaptive.clone();
         let mut origins = source.origins.clone();
         for _ in 0..steps {
@@ -59,11 +60,15 @@ impl Quintic {
         let cells = deviation::all_cells(&last.level, 0);
         let measured = Measured { base: &last.level, points: &last.points, level: 0, surfaces: &surfaces };
         let deviation = deviation::largest_deviation(&measured, &cells, 1);
-        Ok(Quintic { adaptive, level, surfaces, deviation })
+        Ok(Quintic { adaptive, level, surfaces, deviation, memory })
     }
 
     pub(super) fn deviation(&self) -> f64 {
         self.deviation
+    }
+
+    pub(super) fn memory(&self) -> u64 {
+        self.memory
     }
 
     /// How many faces are refined how often.
@@ -92,7 +97,7 @@ impl Quintic {
 const BYTES_PER_QUINTIC: u128 = 32_000;
 
 /// Asks whether the refined mesh and the coefficients of all patches fit.
-fn check_memory(source: &Source, options: &Options, level: u32) -> Result<(), TooDeep> {
+fn check_memory(source: &Source, options: &Options, level: u32) -> Result<u64, TooDeep> {
     let cage = source.cage();
     let topology = cage.topology();
     let (steps, quads) = match topology.is_quads() {
@@ -103,7 +108,7 @@ fn check_memory(source: &Source, options: &Options, level: u32) -> Result<(), To
     let bytes = |level: u32| ((quads as u128) << (2 * level)) * BYTES_PER_QUINTIC;
     let memory = u128::from(options.memory.unwrap_or(u64::MAX));
     if bytes(level) <= memory {
-        return Ok(());
+        return Ok(u64::try_from(bytes(level)).unwrap_or(u64::MAX));
     }
     let deepest = (0..level).rev().find(|&shallower| bytes(shallower) <= memory).unwrap_or(0);
     Err(TooDeep { depth: level, faces: (quads as u128) << (2 * level), deepest })

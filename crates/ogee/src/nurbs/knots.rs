@@ -1,10 +1,13 @@
 //! `KnotVector`: degree and knots of one direction, clamped.
 
+use std::sync::Arc;
+
 /// A clamped knot vector with its degree: first and last knot stand `degree + 1` times.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KnotVector {
     degree: usize,
-    knots: Vec<f64>,
+    /// A part has millions of knot vectors and few different ones: copies hold one list.
+    knots: Arc<[f64]>,
 }
 
 impl KnotVector {
@@ -24,7 +27,7 @@ impl KnotVector {
             (1..knots.len() - degree - 1).all(|i| knots[i] < knots[i + degree]),
             "an inner knot stands at most degree times"
         );
-        KnotVector { degree, knots }
+        KnotVector { degree, knots: knots.into() }
     }
 
     /// Clamped, from the distinct knots and how often each stands.
@@ -61,19 +64,37 @@ impl KnotVector {
         let [start, end] = self.domain();
         KnotVector {
             degree: self.degree,
-            knots: self.knots.iter().rev().map(|&knot| start + (end - knot)).collect(),
+            knots: self.knots.iter().rev().map(|&knot| start + (end - knot)).collect::<Vec<_>>().into(),
         }
     }
 
     /// Distinct knots with their multiplicities, as STEP wants them.
     pub fn multiplicities(&self) -> Vec<(f64, usize)> {
         let mut out: Vec<(f64, usize)> = Vec::new();
-        for &knot in &self.knots {
+        for &knot in self.knots.iter() {
             match out.last_mut() {
                 Some((last, times)) if *last == knot => *times += 1,
                 _ => out.push((knot, 1)),
             }
         }
         out
+    }
+}
+
+/// Knot vectors that were met: of equal ones only the first is kept.
+#[derive(Debug, Default)]
+pub(crate) struct SharedKnots(Vec<KnotVector>);
+
+impl SharedKnots {
+    /// Where there are more different ones, sharing would cost more than it saves.
+    const MOST: usize = 64;
+
+    /// The same knots, with the list of an equal vector that was met before.
+    pub(crate) fn share(&mut self, knots: &mut KnotVector) {
+        match self.0.iter().find(|known| *known == knots) {
+            Some(known) => knots.knots = Arc::clone(&known.knots),
+            None if self.0.len() < SharedKnots::MOST => self.0.push(knots.clone()),
+            None => {}
+        }
     }
 }

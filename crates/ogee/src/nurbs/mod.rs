@@ -10,6 +10,7 @@ mod surface;
 
 pub use curve::NurbsCurve;
 pub use knots::KnotVector;
+pub(crate) use knots::SharedKnots;
 pub use quadrature::gauss;
 pub use shell::{EdgeUse, FaceAddress, Quarters, Shell, ShellEdge, ShellFace, Side};
 pub use surface::NurbsSurface;

@@ -175,26 +175,29 @@ impl Shell {
 
     /// The same shell with every face turned round.
     pub fn reversed(&self) -> Shell {
-        let faces = self.faces.iter().map(|face| {
-            let boundary = face.boundary.iter().rev().map(|used| EdgeUse {
-                edge: used.edge,
-                forward: !used.forward,
+        let mut reversed = self.clone();
+        reversed.reverse();
+        reversed
+    }
+
+    /// Turns every face round.
+    pub(crate) fn reverse(&mut self) {
+        for face in &mut self.faces {
+            face.boundary.reverse();
+            for used in &mut face.boundary {
+                used.forward = !used.forward;
                 // With `u` and `v` exchanged.
-                side: match used.side {
+                used.side = match used.side {
                     Side::V0 => Side::U0,
                     Side::U0 => Side::V0,
                     Side::U1 => Side::V1,
                     Side::V1 => Side::U1,
-                },
-                range: [used.range[1], used.range[0]],
-            });
-            ShellFace {
-                surface: face.surface.transposed(),
-                boundary: boundary.collect(),
-                quads: face.quads.transposed(),
+                };
+                used.range.reverse();
             }
-        });
-        Shell { vertices: self.vertices.clone(), edges: self.edges.clone(), faces: faces.collect() }
+            face.surface = face.surface.transposed();
+            face.quads = face.quads.transposed();
+        }
     }
 
     /// Moves every point of the shell.

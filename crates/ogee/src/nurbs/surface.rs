@@ -61,13 +61,18 @@ impl NurbsSurface {
         [position, du, dv]
     }
 
+    /// The knots along a side.
+    pub(crate) fn along(&self, side: Side) -> &KnotVector {
+        match side {
+            Side::V0 | Side::V1 => &self.u,
+            Side::U0 | Side::U1 => &self.v,
+        }
+    }
+
     /// The boundary curve of a side, along growing parameter.
     pub fn side(&self, side: Side) -> NurbsCurve {
         let (rows, cols) = (self.net.rows(), self.net.cols());
-        let knots = match side {
-            Side::V0 | Side::V1 => self.u.clone(),
-            Side::U0 | Side::U1 => self.v.clone(),
-        };
+        let knots = self.along(side).clone();
         let points = match side {
             Side::V0 => (0..rows).map(|i| self.net[(i, 0)]).collect(),
             Side::V1 => (0..rows).map(|i| self.net[(i, cols - 1)]).collect(),

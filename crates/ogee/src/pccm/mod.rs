@@ -9,6 +9,7 @@
 //! (`meeting`), their rows (`cap`), the conditions around a meeting (`closing`).
 
 mod bi5;
+mod blocks;
 mod cap;
 mod chart_surface;
 mod closing;
@@ -31,11 +32,13 @@ pub use meeting::Cap;
 pub use plan::{Group, Plan, plan};
 pub use requirements::{PccmError, Requirement, SHARPEST, least_level};
 
+pub(crate) use blocks::Blocks;
 pub(crate) use group::Converted;
 pub(crate) use meeting::{CAP_CELLS, meetings};
 pub(crate) use net::{Cells, inserted, view};
 pub(crate) use packing::{Chart, Placed, curves, pack, unpacked};
 pub(crate) use part::Part;
+pub(crate) use requirements::irregular_faces;
 
 use crate::math::{Grid, Vec3, par};
 use crate::mesh::{FaceId, HalfedgeId, Note, Place, VertexId};

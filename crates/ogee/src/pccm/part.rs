@@ -29,10 +29,15 @@ pub(crate) struct Part<'a> {
 impl<'a> Part<'a> {
     /// `faces` are those of the cage `steps` refinements on (0 or 1), in order.
     pub(crate) fn new(cage: &'a Level, steps: u32, faces: &[FaceId]) -> Part<'a> {
+        Part::showing(cage, steps, faces, faces)
+    }
+
+    /// The same, but of the faces that are converted only some are shown: the others are there for their sake, and hidden.
+    pub(crate) fn showing(cage: &'a Level, steps: u32, faces: &[FaceId], shown: &[FaceId]) -> Part<'a> {
         let topology = cage.topology();
         let halfedges = topology.halfedge_count();
         let everything = if steps == 0 && topology.is_quads() { topology.face_count() } else { halfedges };
-        if faces.len() == everything {
+        if shown.len() == everything {
             return Part {
                 whole: cage,
                 cage: Cow::Borrowed(cage),
@@ -59,14 +64,15 @@ impl<'a> Part<'a> {
             0 => around.into_iter().filter(|&f| topology.face_size(f) == 4).collect(),
             _ => around.iter().flat_map(|&f| topology.halfedges(f)).map(|h| FaceId(h.0)).collect(),
         };
-        let converted: Vec<bool> = own_faces.iter().map(|f| faces.binary_search(f).is_ok()).collect();
+        let among = |list: &[FaceId]| own_faces.iter().map(|f| list.binary_search(f).is_ok()).collect();
+        let (converted, shown): (Vec<bool>, Vec<bool>) = (among(faces), among(shown));
         let is_visible = |f: FaceId| match steps {
             0 => cage.is_visible(f),
             _ => cage.is_visible(topology.face(HalfedgeId(f.0))),
         };
         let seen = |own: u32| {
             let quad = own as usize;
-            converted.get(quad).is_some_and(|&converted| converted && is_visible(own_faces[quad]))
+            shown.get(quad).is_some_and(|&shown| shown && is_visible(own_faces[quad]))
         };
         let hide = |level: Level| {
             let all = 0..level.topology().face_count() as u32;

@@ -216,6 +216,18 @@ pub(super) fn is_irregular(base: &Level, v: VertexId) -> bool {
     base.sectors(v).into_iter().any(|sector| class(sector) != CornerClass::Regular)
 }
 
+/// For each face whether its patch may be more than one bicubic piece: next to irregular vertices, and where sharpness is finite.
+pub(crate) fn irregular_faces(base: &Level) -> Vec<bool> {
+    let topology = base.topology();
+    let mut irregular = vec![false; topology.face_count()];
+    let mut mark = |v: VertexId| topology.ring(v).for_each(|h| irregular[topology.face(h).index()] = true);
+    (0..topology.vertex_count() as u32).map(VertexId).filter(|&v| is_irregular(base, v)).for_each(&mut mark);
+    base.semi_sharp_edges().flat_map(|(h, _)| [topology.origin(h), topology.target(h)]).for_each(&mut mark);
+    base.semi_sharp_vertices().for_each(|(v, _)| mark(v));
+    base.slices().flat_map(|(slice, _)| topology.halfedges(slice)).for_each(|h| mark(topology.origin(h)));
+    irregular
+}
+
 /// True if an edge of the faces has two irregular ends, or a vertex of theirs even valence of 6 or more.
 fn joins_irregular(level: &Level, faces: &[FaceId]) -> bool {
     let topology = level.topology();

@@ -91,16 +91,22 @@ impl Level {
         quads.map(|(_, quad)| [quad[0], quad[1], quad[2], quad[3]]).collect()
     }
 
-    /// Asks whether `depth` steps fit into ids and into `memory` bytes.
+    /// How many faces there are after so many steps.
+    pub(super) fn faces_at(&self, depth: u32) -> u128 {
+        let topology = self.topology();
+        match depth {
+            0 => topology.face_count() as u128,
+            _ => (topology.halfedge_count() as u128) << (2 * (depth.min(46) - 1)),
+        }
+    }
+
+    /// Asks whether levels of `depth` steps fit into ids and into `memory` bytes; for points and quads alone there is
+    /// [`Level::check_fine_mesh`].
     ///
     /// # Errors
     /// If they do not.
     pub fn check_depth(&self, depth: u32, memory: u64) -> Result<(), TooDeep> {
-        let halfedges = self.topology().halfedge_count() as u128;
-        let faces = |depth: u32| match depth {
-            0 => self.topology().face_count() as u128,
-            _ => halfedges << (2 * (depth.min(46) - 1)),
-        };
+        let faces = |depth: u32| self.faces_at(depth);
         // Ids of halfedges are below 2^32 - 1 on every level that has halfedges, so four a face on the last.
         let fits = |depth: u32| {
             4 * faces(depth) < u128::from(u32::MAX) && faces(depth) * BYTES_PER_FACE <= u128::from(memory)

@@ -11,9 +11,18 @@ use crate::mesh::connectivity::Connectivity;
 
 /// Refines the insides of all quads into `out`, `(2 side - 1)^2` points for each.
 pub(super) fn refine<C: Connectivity, T: Components>(grids: &Grids<'_, C, T>, out: &mut [T]) {
+    refine_from(grids, 0, out);
+}
+
+/// The same for some quads, from `first` on.
+pub(super) fn refine_from<C: Connectivity, T: Components>(
+    grids: &Grids<'_, C, T>,
+    first: usize,
+    out: &mut [T],
+) {
     let width = 2 * grids.frame.side - 1;
     par::chunks(out, width * width, Memory::default, |memory, f, out| {
-        dispatch(Refine { grids, face: FaceId(f as u32), memory, out });
+        dispatch(Refine { grids, face: FaceId((first + f) as u32), memory, out });
     });
 }
 

@@ -9,9 +9,11 @@ mod grids;
 mod interiors;
 mod kernel;
 mod levels;
+mod memory;
 mod numbering;
 mod plan;
 mod sides;
+mod stream;
 
 pub(crate) use grids::Grids;
 pub use plan::DenseRefinement;

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::grids::{Frame, Grids};
 use super::numbering::Numbering;
 use super::{corners, interiors, levels, sides};
-use crate::math::{Components, Vec3, pages, par};
+use crate::math::{Components, pages, par};
 use crate::mesh::connectivity::{Connectivity, Quads};
 use crate::mesh::{FaceId, HalfedgeId};
 use crate::refine::TooDeep;
@@ -30,12 +30,12 @@ use crate::rules::Level;
 /// sharpness along edges, levels are made after all.
 #[derive(Clone, Debug)]
 pub struct DenseRefinement<'a> {
-    cage: &'a Level,
-    way: Way<'a>,
+    pub(super) cage: &'a Level,
+    pub(super) way: Way<'a>,
 }
 
 #[derive(Clone, Debug)]
-enum Way<'a> {
+pub(super) enum Way<'a> {
     /// One step of a cage with other polygons, whose first level is nobody's base.
     Step,
     /// Grids over a level of quads.
@@ -61,7 +61,7 @@ impl Level {
     /// If `depth` is 0: a cage is no mesh of quads.
     pub fn dense(&self, depth: u32, memory: u64) -> Result<DenseRefinement<'_>, TooDeep> {
         assert!(depth > 0, "a fine mesh is at least one step away");
-        self.check_dense(depth, memory)?;
+        self.check_fine_mesh(depth, memory)?;
         let quads = self.topology().is_quads();
         if depth == 1 && !quads {
             return Ok(DenseRefinement { cage: self, way: Way::Step });
@@ -90,74 +90,6 @@ impl Level {
         Ok(DenseRefinement { cage: self, way })
     }
 }
-
-impl Level {
-    /// What `depth` steps of dense refinement need at most, in bytes, points of three numbers: the last level and, before its
-    /// quads are written, the level before; and the first level where it is the base. `None` if ids would not fit.
-    pub fn dense_memory(&self, depth: u32) -> Option<u64> {
-        const POINT: u128 = size_of::<Vec3>() as u128;
-        const QUAD: u128 = size_of::<[u32; 4]>() as u128;
-        let topology = self.topology();
-        let [vertices, faces, edges, halfedges] = [
-            topology.vertex_count(),
-            topology.face_count(),
-            topology.edge_count(),
-            topology.halfedge_count(),
-        ]
-        .map(|count| count as u128);
-        let quads = topology.is_quads();
-        if depth == 0 || depth > 32 {
-            return (depth == 0).then_some(0);
-        }
-        // The base: the cage, or its first level.
-        let (steps, [vertices, faces, edges], base) = if quads {
-            (depth, [vertices, faces, edges], 0)
-        } else {
-            let counts = [vertices + faces + edges, halfedges, 2 * edges + halfedges];
-            (depth - 1, counts, halfedges * BASE)
-        };
-        let points = |step: u32| {
-            let inside = (1 << step) - 1;
-            vertices + faces * inside * inside + edges * inside
-        };
-        let spreads = self.spreads();
-        // Levels have ids of halfedges as well.
-        let of_levels = if spreads {
-            faces << (2 * steps)
-        } else if quads || depth == 1 {
-            0
-        } else {
-            faces
-        };
-        if points(steps).max(4 * of_levels) >= u128::from(u32::MAX) {
-            return None;
-        }
-        let before = (0..steps).rev().take(2).map(points).sum::<u128>() * POINT;
-        let levels = if spreads { of_levels * LEVEL } else { 0 };
-        let bytes = points(steps) * POINT + levels + base + before.max((faces << (2 * steps)) * QUAD);
-        u64::try_from(bytes).ok()
-    }
-
-    /// True if rules at corners of the base spread into edges and faces from step to step.
-    fn spreads(&self) -> bool {
-        self.has_slices() || self.is_chaikin() && self.semi_sharp_edges().next().is_some()
-    }
-
-    fn check_dense(&self, depth: u32, memory: u64) -> Result<(), TooDeep> {
-        let fits = |depth: u32| self.dense_memory(depth).is_some_and(|bytes| bytes <= memory);
-        if fits(depth) {
-            return Ok(());
-        }
-        let faces = (self.topology().halfedge_count() as u128) << (2 * (depth.min(46) - 1));
-        let deepest = (0..depth.min(32)).rev().find(|&shallower| fits(shallower)).unwrap_or(0);
-        Err(TooDeep { depth, faces, deepest })
-    }
-}
-
-/// What connectivity of a base that is not the cage costs, in bytes a quad, and its points twice.
-const BASE: u128 = 60 + 48;
-/// What levels cost that are made after all, in bytes a face of the last one: half of it for the last, and for all before.
-const LEVEL: u128 = 120;
 
 impl DenseRefinement<'_> {
     /// Number of vertices of the last level.
@@ -264,15 +196,14 @@ impl DenseRefinement<'_> {
         out
     }
 
-    fn base_values<'v, T: Components>(&self, base: &Cow<'_, Level>, cage: &'v [T]) -> Cow<'v, [T]> {
-        match base {
-            Cow::Borrowed(_) => Cow::Borrowed(cage),
-            Cow::Owned(_) => {
-                let mut values = Vec::new();
-                self.cage.child_points(cage, &mut values);
-                Cow::Owned(values)
-            }
+    /// Values at the vertices of the base from those of the cage.
+    pub(super) fn base_values<'v, T: Components>(&self, base: &Level, cage: &'v [T]) -> Cow<'v, [T]> {
+        if std::ptr::eq(base, self.cage) {
+            return Cow::Borrowed(cage);
         }
+        let mut values = Vec::new();
+        self.cage.child_points(cage, &mut values);
+        Cow::Owned(values)
     }
 
     /// The quads of the last level, into the memory that `out` has.
@@ -300,7 +231,7 @@ impl DenseRefinement<'_> {
     }
 }
 
-fn refine<C: Connectivity + Copy, T: Components>(
+pub(super) fn refine<C: Connectivity + Copy, T: Components>(
     base: &Level,
     quads: &C,
     numbering: &Numbering,
