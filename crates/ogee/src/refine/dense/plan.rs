@@ -123,6 +123,10 @@ impl DenseRefinement<'_> {
     /// # Panics
     /// If there are fewer values than vertices of the cage.
     pub fn points<T: Components>(&self, cage: &[T], out: &mut Vec<T>) {
+        if T::COUNT == 0 {
+            out.resize(self.vertex_count(), T::zero());
+            return;
+        }
         match &self.way {
             Way::Step => {
                 pages::resize(out, self.vertex_count());
