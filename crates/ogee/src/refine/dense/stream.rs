@@ -29,7 +29,7 @@ impl DenseRefinement<'_> {
         mut take: impl FnMut(&[T]) -> Result<(), E>,
     ) -> Result<(), E> {
         if let Way::Grids { base, numbering, steps, rules } = &self.way {
-            if let Some(quads) = base.topology().as_quads().filter(|_| *steps > 1) {
+            if let Some(quads) = base.topology().as_quads().filter(|_| *steps > 1 && T::COUNT > 0) {
                 let coarse = Numbering::new(&quads, numbering.side / 2);
                 let values = self.base_values(base, cage);
                 let mut points = Vec::new();
