@@ -256,17 +256,22 @@ fn compare_limits(name: &str, mesh: &ControlMesh, depth: u32) {
         (finest, points) = finest.refine_points(&points);
     }
     let wanted = dense.from_levels(&finest, &limit_vertices(&finest, &points));
+    // The same of a cage moved by rounding errors, to see which normals mean something.
+    let mut noise = cages::noise(5);
+    let moved: Vec<Vec3> =
+        points.iter().map(|&p| p + 1e-14 * mesh.size() * Vec3::new(noise(), noise(), noise())).collect();
+    let trembling = dense.from_levels(&finest, &limit_vertices(&finest, &moved));
     let (mut positions, mut normals) = (Vec::new(), Vec::new());
     dense.limit(&mesh.points, &mut positions, &mut normals);
     assert_eq!((positions.len(), normals.len()), (wanted.len(), wanted.len()));
     for (v, wanted) in wanted.iter().enumerate() {
         let gap = positions[v].distance(wanted.position) / mesh.size();
         assert!(gap <= TOLERANCE, "{name}, {depth} steps, vertex {v}: {gap:e}");
-        if name == "pillow" {
-            // Its two sides are one: normals are differences of rounding errors.
+        let normal = wanted.normal.unwrap_or(Vec3::ZERO);
+        if trembling[v].normal.unwrap_or(Vec3::ZERO).distance(normal) > 1e-3 {
+            // The two sides are one, as those of a pillow: the normal is a difference of rounding errors.
             continue;
         }
-        let normal = wanted.normal.unwrap_or(Vec3::ZERO);
         assert!(
             normals[v].distance(normal) <= 1e-9,
             "{name}, {depth} steps, vertex {v}: {normal:?} {:?}",

@@ -187,7 +187,8 @@ pub fn level_lines(
     let leaps = cells::can_leap(field);
     let wanted = Wanted::new(field, options);
     let residual = RESIDUAL * size_of_field.unwrap_or(size);
-    let (below, residual) = (BELOW * residual, (1.0 - BELOW) * residual);
+    // A share of the same size is left for rounding: the residual is that of values which are not lowered.
+    let (below, residual) = (BELOW * residual, (1.0 - 2.0 * BELOW) * residual);
     let lowered = levels.lowered(below);
     let range = [-half, half];
     let plan = Plan { lattice: &lattice, levels: &lowered, wanted: &wanted, range, leaps, most: MOST };
